@@ -12,6 +12,7 @@ ContentKind contentKindOf(std::string_view extension) {
          : extension == ".x3d"  ? ContentKind::X3d
          : extension == ".amf"  ? ContentKind::Amf
          : extension == ".3mf"  ? ContentKind::ThreeMf
+         : extension == ".fbx"  ? ContentKind::Fbx
                                 : ContentKind::Other;
 }
 
@@ -38,6 +39,7 @@ void checkContent(ContentKind kind, const std::string& file, std::string_view by
                   ContentReport& report) {
   if (kind == ContentKind::Other) return;
   if (kind == ContentKind::Gltf) return checkGltf(file, bytes, report);
+  if (kind == ContentKind::Fbx) return checkFbx(file, bytes, report);
   if (kind == ContentKind::ThreeMf) return checkThreeMf(file, report);
   if (kind != ContentKind::BinaryGltf) return checkXml(kind, file, bytes, report);
   // In both versions of the format, the JSON begins at byte 20, and its size is at byte 12.

@@ -16,7 +16,7 @@
 namespace corridor {
 
 /// assimp chooses its importer by the extension, too.
-enum class ContentKind { Collada, Gltf, BinaryGltf, X3d, Amf, ThreeMf, Other };
+enum class ContentKind { Collada, Gltf, BinaryGltf, X3d, Amf, ThreeMf, Fbx, Other };
 
 /// Returns the kind of a file from its extension, in lower case.
 ContentKind contentKindOf(std::string_view extension);
@@ -58,6 +58,12 @@ void checkContent(ContentKind kind, const std::string& file, std::string_view by
 /// digits. assimp does not normalise rotations: another length would distort the mesh.
 bool hasLengthOne(const double* numbers, int size);
 
+/// Returns whether assimp reads a decimal number as its value, apart from the rounding to floats.
+/// assimp's function for numbers of text (fast_atof) misreads those of more than 18 digits before
+/// the point, and drops the decimals after the 15th, also where a positive exponent follows.
+/// @param largest the largest absolute value of the list that has the number
+bool isReadRightly(std::string_view word, double value, double largest);
+
 /// Returns an X3D file in which each Inline node has one URL without quotes, which is all that
 /// assimp reads. X3D has a list of URLs in quotes: the first that names a file in the folder is
 /// taken, else the first.
@@ -65,6 +71,8 @@ std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& fol
 
 /// The parts of `checkContent`.
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report);
+/// Does nothing for binary files.
+void checkFbx(const std::string& file, std::string_view text, ContentReport& report);
 void checkXml(ContentKind kind, const std::string& file, std::string_view text,
               ContentReport& report);
 /// Unpacks the model of an archive, which assimp reads from the file too, and checks it.

@@ -13,12 +13,14 @@ namespace {
 
 /// Collada's elements <technique> and <extra> may hold anything, so a list of all others is not
 /// possible. assimp's skins and morphs are not applied; it reads holes <ph> as no face.
-constexpr XmlRules kCollada{"COLLADA",
-                            "",
-                            " instance_controller convex_mesh brep skew ph ",
-                            " geometry visual_scene ",
-                            " asset vertices accessor technique_common unit up_axis vcount ",
-                            ""};
+constexpr XmlRules kCollada{
+    "COLLADA",
+    "",
+    " instance_controller convex_mesh brep skew ph ",
+    " geometry visual_scene ",
+    " asset vertices accessor technique_common unit up_axis vcount float_array "
+    "int_array bool_array Name_array IDREF_array ",
+    ""};
 
 constexpr std::string_view kPrimitives = " triangles polylist polygons tristrips trifans ";
 
@@ -43,6 +45,17 @@ constexpr std::array<Children, 11> kChildren{
      {" library_visual_scenes ", " asset visual_scene extra "},
      {" scene ",
       " instance_visual_scene instance_physics_scene instance_kinematics_scene extra "}}};
+
+/// Returns whether an element is one of those that are read, by its name without a prefix.
+bool isRead(std::string_view name) {
+  return isListed(
+             " asset unit up_axis scene source float_array technique_common accessor param p "
+             "vcount library_geometries library_nodes library_visual_scenes ",
+             name) ||
+         std::any_of(kChildren.begin(), kChildren.end(), [&](const Children& rule) {
+           return isListed(rule.children, name) && name != "extra";
+         });
+}
 
 /// Returns whether an element may be in another. In <asset> and the root, all may be whose names
 /// are not miswritten ones of those that are read.
@@ -85,6 +98,10 @@ class ColladaCheck : public XmlCheck {
         fault(tag.line, "<" + std::string(tag.name) + "> is not known in <" +
                             std::string(around(0)) +
                             ">, and assimp drops it; correct its name, or remove it");
+      else if (const auto colon = tag.name.find(':');
+               colon != tag.name.npos && isRead(tag.name.substr(colon + 1)))
+        fault(tag.line, "<" + std::string(tag.name) +
+                            "> has a namespace prefix, and assimp drops it; remove the prefix");
     }
     const bool isInLibrary = around(0) == "library_nodes";
     if (tag.name == "node") {
@@ -110,8 +127,15 @@ class ColladaCheck : public XmlCheck {
         fault(tag.line, "two elements <source> of one <mesh> have the id \"" +
                             std::string(source_) + "\"; give each an id of its own");
     }
-    if (tag.name.ends_with("_array") && around(0) == "source")
-      arrays_[tag.value("id")] = tag.name == "float_array" ? wholeNumberIn(tag.value("count")) : 0;
+    if (tag.name.ends_with("_array") && around(0) == "source" &&
+        !arrays_
+             .try_emplace(tag.value("id"),
+                          tag.name == "float_array" ? wholeNumberIn(tag.value("count")) : 0)
+             .second)
+      fault(tag.line, "two arrays of one <mesh> have the id \"" + std::string(tag.value("id")) +
+                          "\"; give each an id of its own");
+    if (tag.name == "shape" && isInPhysics())
+      report_.note("the shapes of physics models are not read");
     if (tag.name == "accessor" && around(0) == "technique_common" && around(1) == "source")
       accessors_[source_] = accessorOf(tag);
     if (tag.name == "param" && around(0) == "accessor") {
@@ -126,6 +150,12 @@ class ColladaCheck : public XmlCheck {
       positions_.push_back(tag.value("source"));
     }
     hasFaces_ |= isListed(kPrimitives, tag.name) && around(0) == "mesh";
+  }
+
+  bool isInPhysics() const {
+    return std::any_of(open_.begin(), open_.end(), [](const XmlTag& around) {
+      return around.name == "library_physics_models";
+    });
   }
 
   static Accessor accessorOf(const XmlTag& tag) {
@@ -190,6 +220,19 @@ class ColladaCheck : public XmlCheck {
       if (word.find(',') == word.npos && std::isnan(numberIn(word)))
         return fault(array.line, "<float_array> has \"" + std::string(word.substr(0, 32)) +
                                      "\", which is no decimal number" + kDecimals);
+    if (array.content.find(',') == array.content.npos) checkDigits(array);
+  }
+
+  /// Checks that assimp reads an element's numbers as they are.
+  void checkDigits(const XmlTag& tag) {
+    double largest = 0;
+    for (const double number : numbersIn(tag.content))
+      largest = std::max(largest, std::abs(number));
+    std::string_view rest = tag.content;
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
+      if (!isReadRightly(word, numberIn(word), largest))
+        return fault(tag.line, "<" + std::string(tag.name) + "> has \"" +
+                                   std::string(word.substr(0, 64)) + '"' + kDigits);
   }
 
   /// Checks the numbers of corners of polygons: assimp reads as many polygons as `count` says.
@@ -209,6 +252,10 @@ class ColladaCheck : public XmlCheck {
   void checkIndices(const XmlTag& tag) {
     if (tag.content.find_first_not_of("0123456789 \t\r\n") != tag.content.npos)
       fault(tag.line, "<p> may have whole numbers only");
+    std::string_view rest = tag.content;
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
+      if (word.size() >= 10 && wholeNumberIn(word) < 0)
+        return fault(tag.line, "<p> may have numbers below 2^31 only");
     const XmlTag& primitives = open_[open_.size() - 2];
     if (!withoutBlanks(tag.content).empty() && wholeNumberIn(primitives.value("count")) <= 0)
       fault(primitives.line, "<" + std::string(primitives.name) +
@@ -221,6 +268,7 @@ class ColladaCheck : public XmlCheck {
         std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
       return fault(tag.line, "<" + std::string(tag.name) + "> needs " + std::to_string(size) +
                                  " decimal numbers");
+    checkDigits(tag);
     if (tag.name == "rotate" && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
       fault(tag.line,
             "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
@@ -252,6 +300,9 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "up_axis") up = withoutBlanks(tag.content);
     if (const std::string_view meter = tag.value("meter"); tag.name == "unit")
       unit = meter.empty() ? 1 : numberIn(meter);
+    if (tag.name == "unit" &&
+        !isReadRightly(withoutBlanks(tag.find("meter").value_or("1")), unit, 0))
+      fault(tag.line, "<unit> has a meter" + std::string(kDigits));
     hasInnerAsset_ |= depth > 3;
     if (hasInnerAsset_ && (unit != unit_ || up != up_))
       fault(tag.line, "an <asset> within the document has another <" + std::string(tag.name) +

@@ -80,6 +80,7 @@ class GltfCheck {
     checkNodes();
     checkMeshes();
     checkData();
+    checkBuffers();
     checkScene();
   }
 
@@ -188,7 +189,66 @@ class GltfCheck {
           fault("the mode of a primitive is " + mode.dump() + "; 0 to 6 is needed");
         requireReference(at(primitive, "indices"), "indices", "accessors");
         requireReference(at(member(primitive, "attributes"), "POSITION"), "POSITION", "accessors");
+        checkStride("POSITION", member(member(primitive, "attributes"), "POSITION"));
+        checkStride("indices", member(primitive, "indices"));
       }
+    }
+  }
+
+  static std::uint64_t unsignedOf(const Json& value) {
+    return value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
+  }
+
+  /// Checks the distance of an accessor's elements in bytes. assimp reads sparse accessors as
+  /// if there were no gaps.
+  void checkStride(const std::string& name, const Json& key) {
+    const Json* const accessor = at(member(root_, "accessors"), key);
+    if (!accessor) return;
+    const auto strideOf = [&](const Json& part) -> std::uint64_t {
+      const Json* const view = at(member(root_, "bufferViews"), member(part, "bufferView"));
+      // Version 1 of glTF has it in the accessor.
+      return std::max(unsignedOf(member(part, "byteStride")),
+                      view ? unsignedOf(member(*view, "byteStride")) : 0);
+    };
+    const std::uint64_t kind = unsignedOf(member(*accessor, "componentType"));
+    const std::uint64_t bytes = kind == 5120 || kind == 5121   ? 1
+                                : kind == 5122 || kind == 5123 ? 2
+                                                               : 4;
+    const std::uint64_t size = name == "POSITION" ? 3 * bytes : bytes;
+    const std::uint64_t stride = strideOf(*accessor);
+    if (stride > 0 && stride < size)
+      fault("the byteStride of " + name + " is " + std::to_string(stride) + "; at least " +
+            std::to_string(size) + " is needed");
+    const Json& sparse = member(*accessor, "sparse");
+    if (!sparse.is_object()) return;
+    if ((stride > 0 && stride != size) || strideOf(member(sparse, "values")) > 0 ||
+        strideOf(member(sparse, "indices")) > 0)
+      fault(
+          "a sparse accessor of " + name +
+          " has a byteStride, which assimp does not apply; save the mesh without sparse accessors");
+  }
+
+  /// Checks the data in the file. assimp takes characters that Base64 does not have for zeros.
+  void checkBuffers() {
+    for (const Json& buffer : member(root_, "buffers")) {
+      const Json& uri = member(buffer, "uri");
+      if (!uri.is_string() || !uri.get_ref<const std::string&>().starts_with("data:")) continue;
+      std::string_view data = uri.get_ref<const std::string&>();
+      const auto comma = data.find(',');
+      if (comma == data.npos || !data.substr(0, comma).ends_with(";base64")) {
+        fault("the data of a buffer are not in Base64");
+        continue;
+      }
+      data.remove_prefix(comma + 1);
+      const bool isWhole = data.size() % 4 == 0;
+      for (int i = 0; i < 2 && data.ends_with('='); ++i) data.remove_suffix(1);
+      if (!isWhole || std::any_of(data.begin(), data.end(), [](char c) {
+            return !((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+                     c == '+' || c == '/');
+          }))
+        fault(
+            "the data of a buffer are no Base64: A to Z, a to z, 0 to 9, + and /, four characters "
+            "for three bytes, with = at the end");
     }
   }
 
@@ -287,6 +347,12 @@ class GltfCheck {
     if (!read) return;
     std::map<const Json*, double> known;
     report_.triangles = 0;
+    std::set<const Json*> children;
+    for (const Json& node : nodes)
+      for (const Json& key : member(node, "children")) children.insert(at(nodes, key));
+    for (const Json& key : member(*read, "nodes"))
+      if (const Json* const node = at(nodes, key); node && children.contains(node))
+        fault("a node is in a scene and the child of a node; a scene may name root nodes only");
     for (const Json& key : member(*read, "nodes"))
       if (const Json* const node = at(nodes, key)) *report_.triangles += trianglesOf(*node, known);
     for (const Json& node : nodes)

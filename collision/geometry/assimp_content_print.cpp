@@ -79,7 +79,7 @@ class AmfCheck : public XmlCheck {
     if (isListed(" x y z ", name) && std::isnan(numberIn(tag.content)))
       fault(tag.line, "<" + name + "> is not a number" + kDecimals);
     if (isListed(" v1 v2 v3 ", name) && wholeNumberIn(tag.content) < 0)
-      fault(tag.line, "<" + name + "> is not a whole number of at least 0");
+      fault(tag.line, "<" + name + "> is not a whole number from 0 to 2^31 - 1");
     if (name == "vertex") require(tag, {"coordinates"});
     if (name == "coordinates") require(tag, {"x", "y", "z"});
     if (name == "triangle") require(tag, {"v1", "v2", "v3"});
@@ -109,7 +109,7 @@ class ThreeMfCheck : public XmlCheck {
     if (tag.name == "triangle" && around(0) == "triangles")
       for (const std::string name : {"v1", "v2", "v3"})
         if (wholeNumberIn(tag.value(name)) < 0)
-          fault(tag.line, "<triangle> has no whole number " + name + " of at least 0");
+          fault(tag.line, "<triangle> has no whole number " + name + " from 0 to 2^31 - 1");
     if (tag.name == "item" || tag.name == "component") checkReference(tag);
   }
 

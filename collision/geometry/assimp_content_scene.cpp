@@ -96,12 +96,31 @@ class NodeCheck {
   ContentReport& report_;
 };
 
+/// Notes axes of FBX that are no right-handed frame, or an up-axis that points down. Corridor reads
+/// coordinates as they are stored.
+void noteAxes(const aiMetadata& data, ContentReport& report) {
+  Eigen::Matrix3i axes = Eigen::Matrix3i::Zero();
+  std::int32_t sign = 1;
+  for (int i = 0; const char* const name : {"FrontAxis", "CoordAxis", "UpAxis"}) {
+    std::int32_t axis = 0;
+    if (!data.Get(name, axis) || !data.Get(name + std::string("Sign"), sign) || axis < 0 ||
+        axis > 2)
+      return;
+    axes(axis, i++) = sign;
+  }
+  if (axes.determinant() != 1 || sign < 0)
+    report.note(
+        "the file's axes are left-handed, or its up-axis points down; its coordinates are read as "
+        "they are stored");
+}
+
 }  // namespace
 
 void checkScene(const aiScene& scene, const std::string& file, SceneKind kind,
                 ContentReport& report) {
   checkDeformation(scene, file, report);
   NodeCheck(file, kind, report).run(*scene.mRootNode);
+  if (kind == SceneKind::Fbx && scene.mMetaData) noteAxes(*scene.mMetaData, report);
   if (kind == SceneKind::Fbx)
     report.note(
         "an FBX file is not searched for geometry that no model uses and properties of unusual "

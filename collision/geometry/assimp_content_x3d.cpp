@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
+#include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content_xml.h"
 
 namespace corridor {
@@ -24,8 +26,27 @@ constexpr XmlRules kX3d{
     "Viewpoint OrthoViewpoint WorldInfo Sound AudioClip ",
     "",
     "",
-    " Scene ",
+    " Scene Coordinate ",
     ""};
+
+/// The attributes of the elements that hold or move geometry, by the standard (X3D 4.0); those of
+/// all elements are under "".
+struct Attributes {
+  std::string_view elements, names;
+};
+constexpr std::array<Attributes, 10> kAttributes{
+    {{"", " DEF USE containerField class id style "},
+     {" Transform Group StaticGroup Shape Inline ",
+      " bboxCenter bboxSize bboxDisplay visible castShadow render "},
+     {" Transform ", " translation rotation scale scaleOrientation center "},
+     {" Inline ", " url load global description autoRefresh autoRefreshTimeLimit "},
+     {" Box ", " size solid "},
+     {" IndexedFaceSet IndexedTriangleSet IndexedTriangleFanSet TriangleSet ElevationGrid ",
+      " ccw solid colorPerVertex normalPerVertex "},
+     {" IndexedFaceSet ", " coordIndex colorIndex normalIndex texCoordIndex convex creaseAngle "},
+     {" IndexedTriangleSet IndexedTriangleFanSet ", " index "},
+     {" ElevationGrid ", " height xDimension zDimension xSpacing zSpacing creaseAngle "},
+     {" Coordinate ", " point "}}};
 
 /// The attributes whose numbers are or move geometry, and how many numbers they have (0: any
 /// number).
@@ -95,7 +116,41 @@ class X3dCheck : public XmlCheck {
       if (tag.name == numbers.element) checkNumbers(tag, numbers);
     if (tag.name == "Coordinate" && around(0) == "TriangleSet") checkTriangles(tag, "point", 9);
     if (tag.name == "IndexedTriangleSet") checkTriangles(tag, "index", 3);
+    if (tag.name == "ElevationGrid" && !tag.find("USE")) checkGrid(tag);
+    noteUnknown(tag);
     checkNames(tag);
+  }
+
+  /// Collects the attributes that the standard does not have.
+  void noteUnknown(const XmlTag& tag) {
+    const auto isKnown = [&](std::string_view name, std::string_view element) {
+      return std::any_of(kAttributes.begin(), kAttributes.end(), [&](const Attributes& rule) {
+        return (rule.elements == element || isListed(rule.elements, element)) &&
+               isListed(rule.names, name);
+      });
+    };
+    const bool isGeometry =
+        std::any_of(kAttributes.begin() + 1, kAttributes.end(),
+                    [&](const Attributes& rule) { return isListed(rule.elements, tag.name); });
+    if (!isGeometry) return;
+    for (const std::string_view name : tag.names())
+      if (!isKnown(name, "") && !isKnown(name, tag.name) && name.find(':') == name.npos)
+        unknown_.insert(std::string(name) + " of <" + std::string(tag.name) + ">");
+  }
+
+  void end() override {
+    if (unknown_.empty()) return;
+    report_.note("not read, because X3D does not have these attributes: " +
+                 joinedFirst(std::vector<std::string>(unknown_.begin(), unknown_.end())));
+  }
+
+  /// Checks that a grid has a height for each of its points.
+  void checkGrid(const XmlTag& tag) {
+    const std::size_t count = listedNumbers(tag.value("height")).size();
+    const double points = numberIn(tag.value("xDimension")) * numberIn(tag.value("zDimension"));
+    if (static_cast<double>(count) != points)
+      fault(tag.line, "the <ElevationGrid> has " + std::to_string(count) +
+                          " heights; xDimension times zDimension are needed");
   }
 
   /// Checks DEF and USE. To assimp all files of an import are one name space, in which a later node
@@ -164,6 +219,9 @@ class X3dCheck : public XmlCheck {
     if (rule.element == "Coordinate") points_.emplace(tag.value("DEF"), numbers.size());
     if (isListed(kWhole, name) && text->find_first_not_of("0123456789-, \t\r\n") != text->npos)
       return fault(tag.line, name + " may have whole numbers only");
+    if (isListed(kWhole, name) && std::any_of(numbers.begin(), numbers.end(),
+                                              [](double x) { return std::abs(x) > INT32_MAX; }))
+      return fault(tag.line, name + " may have numbers below 2^31 only");
     if (std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
       return fault(tag.line, name + " has a word that is no number; put a blank after each comma");
     if (rule.size > 0 && numbers.size() != rule.size)
@@ -175,6 +233,7 @@ class X3dCheck : public XmlCheck {
                           "with length 1, with six digits or more");
   }
 
+  std::set<std::string> unknown_;                   // attributes
   std::map<std::string_view, std::size_t> points_;  // the numbers of <Coordinate>s by their DEF
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "collision/core/spelling.h"
@@ -71,7 +72,7 @@ std::vector<double> numbersIn(std::string_view text) {
 
 long wholeNumberIn(std::string_view text) {
   text = withoutBlanks(text);
-  long value = -1;
+  std::int32_t value = -1;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && stop == text.data() + text.size() && value >= 0 ? value : -1;
 }
@@ -108,6 +109,13 @@ std::optional<std::string_view> XmlTag::findInOtherCase(std::string_view attribu
         lowered(next->name) == lowered(attribute))
       return next->name;
   return std::nullopt;
+}
+
+std::vector<std::string_view> XmlTag::names() const {
+  std::vector<std::string_view> names;
+  for (std::string_view rest = attributes; const auto next = takeAttribute(rest);)
+    names.push_back(next->name);
+  return names;
 }
 
 bool XmlCheck::isAccepted(std::string_view name) const {
@@ -155,6 +163,7 @@ void XmlCheck::start(XmlTag tag) {
       single += ' ' + name + ' ';
     }
     if (isListed(rules_.numbered, name)) requireOwnId(tag);
+    checkTwice(tag);
     enter(tag);
   }
   open_.push_back(std::move(tag));
@@ -170,6 +179,14 @@ void XmlCheck::checkCase(const XmlTag& tag, std::initializer_list<std::string_vi
     if (const auto other = tag.findInOtherCase(name))
       fault(tag.line, "the attribute \"" + std::string(*other) + "\" of <" + std::string(tag.name) +
                           "> is not read; write \"" + std::string(name) + '"');
+}
+
+void XmlCheck::checkTwice(const XmlTag& tag) {
+  const std::vector<std::string_view> names = tag.names();
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      fault(tag.line, "<" + std::string(tag.name) + "> has the attribute \"" + std::string(*name) +
+                          "\" twice; keep one");
 }
 
 void XmlCheck::requireOwnId(const XmlTag& tag) {

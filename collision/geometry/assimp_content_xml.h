@@ -36,6 +36,8 @@ struct XmlTag {
   /// Returns the name of an attribute that differs from the given one in the case of its letters
   /// only; nullopt if there is none.
   std::optional<std::string_view> findInOtherCase(std::string_view attribute) const;
+  /// Returns the names of the attributes, in their order.
+  std::vector<std::string_view> names() const;
   /// Returns the value of an attribute; "" without it.
   std::string_view value(std::string_view attribute) const { return find(attribute).value_or(""); }
 };
@@ -52,11 +54,14 @@ std::string_view takeWord(std::string_view& text);
 double numberIn(std::string_view text);
 /// Returns the numbers between the blanks of a text; NaN for each word that is none.
 std::vector<double> numbersIn(std::string_view text);
-/// Returns the whole number of at least 0 that is all of a text except blanks; -1 if there is none.
+/// Returns the whole number from 0 to 2^31 - 1 that is all of a text except blanks; -1 if there is
+/// none.
 long wholeNumberIn(std::string_view text);
 
 constexpr const char* kInstead = "; save the mesh as OBJ, STL, PLY or OFF";
 constexpr const char* kDecimals = "; write decimal numbers such as -1.25e-3";
+constexpr const char* kDigits =
+    ", which assimp misreads; write decimal numbers with at most 15 digits";
 
 /// Reads a file once, and adds a fault for each element that breaks the rules. A derived class adds
 /// the checks of its format. Faults of syntax are left to assimp.
@@ -90,6 +95,8 @@ class XmlCheck {
   /// Adds a fault for each attribute whose name differs from one of the names in case only: it is
   /// not read.
   void checkCase(const XmlTag& tag, std::initializer_list<std::string_view> names);
+  /// Adds a fault if a tag has an attribute twice: assimp reads one of them.
+  void checkTwice(const XmlTag& tag);
   /// Adds a fault if an earlier element of the same name has the same `id`: assimp drops one.
   void requireOwnId(const XmlTag& tag);
   /// Adds a fault for each of the elements that is not in the element.

@@ -195,7 +195,7 @@ class DropLog : public Assimp::LogStream {
     for (const char* const sign :
          {"Unable to resolve reference to instanced node", "Unresolved reference format of node",
           "Unable to find geometry for ID", "long message discarded",
-          "TRIANGLES mode. Some vertices were dropped"})
+          "encountered duplicate object id", "TRIANGLES mode. Some vertices were dropped"})
       if (const auto at = text.find(sign); at != text.npos)
         report_.fault(file_, 0, "assimp leaves out geometry: " + text.substr(at));
     if (text.find("failed to read source object for incoming Model link") != text.npos)

@@ -44,7 +44,7 @@ TEST_F(MeshContent, AmfPartsThatAreMissingOrTwice) {
             "a.amf:2: a second <coordinates> is in one <vertex>, and assimp drops one" + instead);
   for (const std::string corner : {"1.5", "-1", "a", "1<!-- -->2"})
     EXPECT_EQ(fault(z, "<v3>" + corner + "</v3>"),
-              "a.amf:3: <v3> is not a whole number of at least 0")
+              "a.amf:3: <v3> is not a whole number from 0 to 2^31 - 1")
         << corner;
   EXPECT_EQ(fault(z, v3 + "<vertex/>"), "a.amf:3: " + notRight("vertex"));
 }
@@ -193,7 +193,7 @@ TEST_F(MeshContent, ThreeMfElements) {
   EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0,5\"", "0")),
             model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3");
   EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\"", "0.5")),
-            model + ":4: <triangle> has no whole number v3 of at least 0");
+            model + ":4: <triangle> has no whole number v3 from 0 to 2^31 - 1");
 }
 
 }  // namespace

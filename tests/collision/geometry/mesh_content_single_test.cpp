@@ -42,8 +42,9 @@ TEST_F(MeshContent, AmfNumbers) {
     EXPECT_EQ(complaint("a.amf", amfOf(number, volume()), inMetres),
               "a.amf:2: <x> is not a number; write decimal numbers such as -1.25e-3")
         << number;
-  EXPECT_EQ(complaint("a.amf", amfOf("1", volume("zero")), inMetres),
-            "a.amf:3: <v1> is not a whole number of at least 0");
+  for (const std::string index : {"zero", "-1", "2147483648", "4294967296"})
+    EXPECT_EQ(complaint("a.amf", amfOf("1", volume(index)), inMetres),
+              "a.amf:3: <v1> is not a whole number from 0 to 2^31 - 1");
 }
 
 // --- Collada
@@ -238,6 +239,85 @@ TEST_F(MeshContent, OffFacesOfTwoCorners) {
   EXPECT_THAT(notesOf("a.off", "OFF 3 1 0\n" + points), IsEmpty());
   EXPECT_THAT(notesOf("a.off", "OFF 3 2 0\n" + points + "2 0 1\n"), ElementsAre(linesNote));
   EXPECT_THAT(notesOf("a.off", "OFF 3 2 0\n" + points + "1 0\n"), ElementsAre(linesNote));
+}
+
+// --- XML
+
+/// Parsers differ in which of two attributes they read.
+TEST_F(MeshContent, AttributesThatAreThereTwice) {
+  EXPECT_EQ(complaint("a.dae", colladaWith("<unit meter='0.001' meter='1'/>")),
+            "a.dae:1: <unit> has the attribute \"meter\" twice; keep one");
+  const std::string shape =
+      "<Shape><IndexedFaceSet coordIndex='0 1 2'><Coordinate point='0 0 0 1 0 0 0 2 0'/>"
+      "</IndexedFaceSet></Shape>";
+  EXPECT_EQ(complaint("a.x3d", "<X3D><Scene><Transform translation='9 0 0' translation='2 0 0'>" +
+                                   shape + "</Transform></Scene></X3D>"),
+            "a.x3d:1: <Transform> has the attribute \"translation\" twice; keep one");
+}
+
+TEST_F(MeshContent, ColladaArraysThatAreThereTwice) {
+  const auto with = [&](const std::string& more) {
+    std::string text = colladaWith("");
+    const std::string end = "</float_array>";
+    return text.insert(text.find(end) + end.size(), more);
+  };
+  const std::string second = "<float_array id='pb' count='9'>9 0 0 1 0 0 0 2 0</float_array>";
+  EXPECT_EQ(complaint("a.dae", with(second)),
+            "a.dae:1: a second <float_array> is in one <source>, and assimp drops one" + instead);
+  EXPECT_THAT(complaint("a.dae", with("</source><source id='q'><float_array id='pa' count='0'/>")),
+              HasSubstr("two arrays of one <mesh> have the id \"pa\"; give each an id of its own"));
+}
+
+TEST_F(MeshContent, ColladaPhysicsIsNoted) {
+  const std::string physics =
+      "<library_physics_models><physics_model id='p'><rigid_body sid='r'><technique_common><shape>"
+      "<box><half_extents>1 1 1</half_extents></box></shape></technique_common></rigid_body>"
+      "</physics_model></library_physics_models>";
+  EXPECT_THAT(notesOf("a.dae", colladaWith("", {}, physics)),
+              ElementsAre("the shapes of physics models are not read"));
+}
+
+// --- X3D
+
+TEST_F(MeshContent, X3dCoordinatesThatAreThereTwice) {
+  const std::string points = "<Coordinate point='0 0 0 1 0 0 0 2 0'/>";
+  EXPECT_EQ(
+      complaint("a.x3d", "<X3D><Scene><Shape><IndexedFaceSet coordIndex='0 1 2'>" + points +
+                             points + "</IndexedFaceSet></Shape></Scene></X3D>"),
+      "a.x3d:1: a second <Coordinate> is in one <IndexedFaceSet>, and assimp drops one" + instead);
+}
+
+TEST_F(MeshContent, X3dAttributesThatAreUnknown) {
+  const auto notes = [&](const std::string& group, const std::string& set = "") {
+    const std::string name = group.substr(0, group.find(' '));
+    return notesOf("a.x3d", "<X3D><Scene><" + group +
+                                "><Shape><IndexedFaceSet coordIndex='0 1 2' " + set +
+                                "><Coordinate point='0 0 0 1 0 0 0 2 0'/></IndexedFaceSet>" +
+                                "</Shape></" + name + "></Scene></X3D>");
+  };
+  EXPECT_THAT(notes("Transform DEF='a' translation='1 2 3' bboxSize='1 1 1' xmlns:q='r' q:s='t'",
+                    "solid='false' creaseAngle='1' texCoordIndex='0 1 2'"),
+              IsEmpty());
+  EXPECT_THAT(notes("Transform translate='1 2 3' class='c'", "offset='1'"),
+              ElementsAre("not read, because X3D does not have these attributes: offset of "
+                          "<IndexedFaceSet>, translate of <Transform>"));
+  EXPECT_THAT(notes("Group translation='1 2 3'"),
+              ElementsAre("not read, because X3D does not have these attributes: translation of "
+                          "<Group>"));
+}
+
+TEST_F(MeshContent, X3dHeightsOfGrids) {
+  const auto grid = [&](const std::string& heights) {
+    return complaint("a.x3d",
+                     "<X3D><Scene><Shape><ElevationGrid xDimension='2' zDimension='3' xSpacing='1' "
+                     "zSpacing='1' height='" +
+                         heights + "'/></Shape></Scene></X3D>");
+  };
+  EXPECT_EQ(grid("0 0 0 1 0 0"), "no complaint");
+  for (const std::string heights : {"0 0 0 1", "0 0 0 1 0 0 0"})
+    EXPECT_EQ(grid(heights), "a.x3d:1: the <ElevationGrid> has " +
+                                 std::to_string(heights.size() / 2 + 1) +
+                                 " heights; xDimension times zDimension are needed");
 }
 
 }  // namespace

@@ -197,6 +197,57 @@ TEST_F(Gltf, WholeNumbersAndIndices) {
             "the key \"Mesh\" is not read; write \"mesh\"");
 }
 
+/// assimp reads sparse accessors as if there were no gaps, and other ones with overlaps.
+TEST_F(Gltf, BytesBetweenElements) {
+  // The positions are in the first view, and what a sparse accessor replaces is in the second.
+  const auto strided = [&](const std::string& first, const std::string& second, bool isSparse) {
+    const auto stride = [](const std::string& bytes) {
+      return bytes.empty() ? "" : ", \"byteStride\": " + bytes;
+    };
+    const std::string text =
+        with(gltf(), "\"byteLength\": 36}],\n\"acc",
+             "\"byteLength\": 36" + stride(first) + "}, {\"buffer\": 0, \"byteLength\": 36" +
+                 stride(second) + "}],\n\"acc");
+    return complaint(
+        "a.gltf", isSparse ? with(text, "\"VEC3\"",
+                                  R"("VEC3", "sparse": {"count": 1, "indices": {"bufferView": 1, )"
+                                  R"("componentType": 5121}, "values": {"bufferView": 1}})")
+                           : text);
+  };
+  const std::string gaps =
+      "a.gltf: a sparse accessor of POSITION has a byteStride, which assimp does not apply; save "
+      "the mesh without sparse accessors";
+  EXPECT_EQ(strided("16", "", true), gaps);
+  EXPECT_EQ(strided("", "16", true), gaps);
+  EXPECT_EQ(strided("12", "", true), "no complaint");
+  EXPECT_EQ(strided("12", "16", false), "no complaint");
+  for (const std::string bytes : {"4", "8", "11"})
+    EXPECT_EQ(strided(bytes, "", false),
+              "a.gltf: the byteStride of POSITION is " + bytes + "; at least 12 is needed");
+}
+
+TEST_F(Gltf, DataThatAreNotBase64) {
+  // 36 bytes of zeros, except the floats 1 and 2.
+  const std::string good = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAA";
+  const auto of = [&](const std::string& data, const std::string& type = ";base64,") {
+    return with(gltf(), "\"a.bin\"", "\"data:application/octet-stream" + type + data + '"');
+  };
+  EXPECT_EQ(read("a.gltf", of(good)).mesh.vertices.at(2), Vec3(0, 2, 0));
+  const std::string text =
+      "the data of a buffer are no Base64: A to Z, a to z, 0 to 9, + and /, four characters for "
+      "three bytes, with = at the end";
+  for (const std::string& data :
+       {with(good, "CAPw", "CA_w"), with(good, "CAPw", "CA-w"), with(good, "CAPw", "CA w"),
+        with(good, "CAPw", "CA=w"), good + "AA", good + "A===", good + "A"})
+    EXPECT_EQ(fault(of(data)), text) << data;
+  EXPECT_EQ(fault(of(good, ",")), "the data of a buffer are not in Base64");
+}
+
+TEST_F(Gltf, RootNodesThatAreChildren) {
+  EXPECT_EQ(fault(gltf("", R"({"mesh": 0}, {"children": [0]})")),
+            "a node is in a scene and the child of a node; a scene may name root nodes only");
+}
+
 TEST_F(Gltf, NumbersOfTransforms) {
   const auto of = [&](const std::string& key, const std::string& value) {
     return fault(gltf("", "{\"mesh\": 0, \"" + key + "\": " + value + "}"));

@@ -1,0 +1,170 @@
+// The text form of FBX. The binary form is not searched.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "collision/geometry/assimp_content_xml.h"
+
+namespace corridor {
+namespace {
+
+/// Pairs parent/child: the elements that may be in another once, because assimp reads one of them.
+/// The root's name is empty.
+constexpr std::string_view kSingle =
+    " /GlobalSettings /Definitions /Objects /Connections GlobalSettings/Properties70 "
+    "Model/Properties70 Geometry/Vertices Geometry/PolygonVertexIndex Vertices/a "
+    "PolygonVertexIndex/a ";
+
+/// The properties that move geometry. Commas are before and after each name.
+constexpr std::string_view kProperties =
+    ",UpAxis,UpAxisSign,FrontAxis,FrontAxisSign,CoordAxis,CoordAxisSign,UnitScaleFactor,"
+    "RotationOrder,RotationActive,InheritType,RotationOffset,RotationPivot,ScalingOffset,"
+    "ScalingPivot,PreRotation,PostRotation,Lcl Translation,Lcl Rotation,Lcl Scaling,"
+    "GeometricTranslation,GeometricRotation,GeometricScaling,";
+
+bool isProperty(std::string_view name) {
+  return kProperties.find("," + std::string(name) + ",") != std::string_view::npos;
+}
+
+/// Reads the elements "key: value, value { elements }" of a file. Faults of syntax are left to
+/// assimp.
+class FbxCheck {
+ public:
+  FbxCheck(const std::string& file, std::string_view text, ContentReport& report)
+      : file_(file), text_(text), report_(report) {}
+
+  void run() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '"') {
+        const auto end = std::min(text_.find('"', at_ + 1), text_.size());
+        addWord(text_.substr(at_ + 1, end - at_ - 1), end + 1);
+      } else if (c == ';') {
+        at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
+      } else if (c == '{') {
+        open_.push_back(std::move(element_));
+        element_ = {};
+        ++at_;
+      } else if (c == '}') {
+        finish();
+        if (open_.empty()) return;
+        element_ = std::move(open_.back());
+        open_.pop_back();
+        finish();
+        ++at_;
+      } else if (c == ',' || c == ':' || isBlank(c)) {
+        line_ += c == '\n';
+        ++at_;
+      } else {
+        const auto end = std::min(text_.find_first_of(" \t\r\n,:;{}\"", at_), text_.size());
+        const std::string_view word = text_.substr(at_, end - at_);
+        const auto next = text_.find_first_not_of(" \t", end);
+        if (next != text_.npos && text_[next] == ':')
+          start(word, end);
+        else
+          addWord(word, end);
+      }
+    }
+    finish();
+  }
+
+ private:
+  struct Element {
+    std::string_view key;
+    std::vector<std::string_view> values;
+    int line = 0;
+    std::set<std::string> single;  // what is in the element, and may be in it once
+  };
+
+  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+  void fault(int line, const std::string& text) { report_.fault(file_, line, text); }
+
+  std::string_view around() const { return open_.empty() ? "" : open_.back().key; }
+
+  void addWord(std::string_view word, std::size_t end) {
+    element_.values.push_back(word);
+    line_ += static_cast<int>(std::count(word.begin(), word.end(), '\n'));
+    at_ = end;
+  }
+
+  void start(std::string_view key, std::size_t end) {
+    finish();
+    element_.key = key;
+    element_.line = line_;
+    at_ = end;
+    const std::string place = std::string(around()) + '/' + std::string(key);
+    if (isListed(kSingle, place)) requireFirst(std::string(key));
+  }
+
+  /// Adds a fault if something of the name is in the element around the current one already.
+  void requireFirst(const std::string& name) {
+    std::set<std::string>& single = open_.empty() ? single_ : open_.back().single;
+    if (!single.insert(name).second)
+      fault(element_.line, "a second \"" + name +
+                               "\" is in one part of the file, and assimp drops one" + kInstead);
+  }
+
+  /// At the end of an element, or of what is between two elements.
+  void finish() {
+    const std::string_view name = element_.key == "a" ? around() : element_.key;
+    if (name == "Vertices") checkNumbers(element_.values, name);
+    if (name == "PolygonVertexIndex") checkCorners();
+    if (name == "P" && around() == "Properties70" && element_.values.size() > 4 &&
+        isProperty(element_.values[0])) {
+      requireFirst(std::string(element_.values[0]));
+      checkNumbers({element_.values.begin() + 4, element_.values.end()}, element_.values[0]);
+    }
+    element_ = {};
+  }
+
+  /// Checks that assimp reads numbers as they are: it takes those of 32 characters or more for 0.
+  void checkNumbers(const std::vector<std::string_view>& words, std::string_view name) {
+    constexpr std::size_t kMostCharacters = 31;
+    double largest = 0;
+    for (const std::string_view word : words)
+      if (const double number = numberIn(word); !std::isnan(number))
+        largest = std::max(largest, std::abs(number));
+    for (const std::string_view word : words) {
+      if (word.starts_with('*')) continue;  // the size of a list
+      const std::string start = std::string(name) + " has \"" + std::string(word.substr(0, 64));
+      const double number = numberIn(word);
+      if (std::isnan(number))
+        return fault(element_.line, start + "\", which is no decimal number" + kDecimals);
+      if (word.size() > kMostCharacters || !isReadRightly(word, number, largest))
+        return fault(element_.line, start + '"' + kDigits);
+    }
+  }
+
+  /// Checks the corners of polygons, of which the last has a negative number.
+  void checkCorners() {
+    std::string_view last = "-1";
+    for (const std::string_view word : element_.values) {
+      if (word.starts_with('*')) continue;
+      if (wholeNumberIn(word.substr(word.starts_with('-'))) < 0)
+        return fault(element_.line,
+                     "PolygonVertexIndex may have whole numbers only, with at most 31 bits");
+      last = word;
+    }
+    if (!last.starts_with('-'))
+      fault(element_.line,
+            "the last polygon does not end, and assimp drops it; make its last corner negative");
+  }
+
+  const std::string& file_;
+  std::string_view text_;
+  ContentReport& report_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  Element element_;            // the current one
+  std::vector<Element> open_;  // those around it
+  std::set<std::string> single_;
+};
+
+}  // namespace
+
+void checkFbx(const std::string& file, std::string_view text, ContentReport& report) {
+  if (!text.starts_with("Kaydara FBX Binary")) FbxCheck(file, text, report).run();
+}
+
+}  // namespace corridor

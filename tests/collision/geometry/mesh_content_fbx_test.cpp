@@ -1,0 +1,102 @@
+// What FBX files in text have twice, or in words that assimp reads as other numbers.
+#include "tests/collision/geometry/mesh_content_fixture.h"
+
+namespace corridor::test::mesh_content {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class FbxText : public MeshContent {
+ protected:
+  std::string fault(const std::string& text) { return complaint("a.fbx", text); }
+  /// Returns a file in which one text is replaced by another.
+  static std::string changed(const std::string& from, const std::string& to) {
+    std::string text = fbx("");
+    return text.replace(text.find(from), from.size(), to);
+  }
+};
+
+std::string settings(const std::string& properties) {
+  return "GlobalSettings: {\n Version: 1000\n Properties70: {\n" + properties + " }\n}\n";
+}
+
+std::string property(const std::string& name, const std::string& value) {
+  return "  P: \"" + name + "\", \"double\", \"Number\", \"\"," + value + "\n";
+}
+
+TEST_F(FbxText, NumbersThatAssimpMisreads) {
+  const auto with = [&](const std::string& word) {
+    return fault(changed("0,2,0\n", "0," + word + ",0\n"));
+  };
+  const std::string start = "a.fbx:11: Vertices has \"",
+                    digits =
+                        "\", which assimp misreads; write decimal numbers with at most 15 digits",
+                    none = "\", which is no decimal number; write decimal numbers such as -1.25e-3";
+  for (const std::string word :
+       {"2.0000000000000000000000000000000", "20000000000000000000e-19", "0.00000000000000002e17"})
+    EXPECT_EQ(with(word), start + word + digits);
+  for (const std::string word : {"1.#INF", "-1.#IND", "0.2d1", "nan", "2x"})
+    EXPECT_EQ(with(word), start + word + none);
+  for (const std::string word :
+       {"2", "-2.5", "1.2246467991473532e-16", "2.00000000000000000000000000000", "1e+01"})
+    EXPECT_EQ(with(word), "no complaint") << word;
+  const std::string long0 = "2.0000000000000000000000000000000";
+  EXPECT_EQ(fault(fbx(settings(property("UnitScaleFactor", long0)))),
+            "a.fbx:8: UnitScaleFactor has \"" + long0 + digits);
+  EXPECT_EQ(fault(fbx(settings(property("TimeSpanStop", long0)))), "no complaint");
+}
+
+TEST_F(FbxText, PartsThatAreThereTwice) {
+  const auto twice = [](int line, const std::string& name) {
+    return "a.fbx:" + std::to_string(line) + ": a second \"" + name +
+           "\" is in one part of the file, and assimp drops one" + instead;
+  };
+  const std::string unit = property("UnitScaleFactor", "100");
+  EXPECT_EQ(fault(fbx(settings(unit))), "no complaint");
+  EXPECT_EQ(fault(fbx(settings(unit + unit))), twice(9, "UnitScaleFactor"));
+  EXPECT_EQ(fault(fbx(settings(unit) + settings(unit))), twice(11, "GlobalSettings"));
+  EXPECT_EQ(fault(fbx("") + "Connections: {\n}\n"), twice(25, "Connections"));
+  EXPECT_EQ(fault(fbx("") + "; a comment {\nObjects: {\n}\n"), twice(26, "Objects"));
+  EXPECT_EQ(fault(changed("  PolygonVertexIndex",
+                          "  Vertices: *3 {\n   a: 1,2,3\n  }\n"
+                          "  PolygonVertexIndex")),
+            twice(13, "Vertices"));
+}
+
+TEST_F(FbxText, CornersOfPolygons) {
+  const auto with = [&](const std::string& corners) { return fault(changed("0,1,-3", corners)); };
+  EXPECT_EQ(with("0,1,-3,0,1,2"),
+            "a.fbx:14: the last polygon does not end, and assimp drops it; make its last corner "
+            "negative");
+  for (const std::string corners : {"0,1.0,-3", "0,4294967297,-3", "0,x,-3"})
+    EXPECT_EQ(with(corners),
+              "a.fbx:14: PolygonVertexIndex may have whole numbers only, with at most 31 bits");
+}
+
+TEST_F(FbxText, ObjectsOfOneId) {
+  EXPECT_THAT(fault(fbx("", " Geometry: 1, \"Geometry::b\", \"Mesh\" {\n }\n")),
+              HasSubstr("duplicate object id"));
+}
+
+TEST_F(FbxText, AxesThatAreNoRightHandedFrame) {
+  const auto axes = [&](int up, int upSign, int front, int frontSign, int coordSign) {
+    const auto whole = [](const std::string& name, int value) {
+      return "  P: \"" + name + "\", \"int\", \"Integer\", \"\"," + std::to_string(value) + "\n";
+    };
+    return notesOf("a.fbx",
+                   fbx(settings(whole("UpAxis", up) + whole("UpAxisSign", upSign) +
+                                whole("FrontAxis", front) + whole("FrontAxisSign", frontSign) +
+                                whole("CoordAxis", 0) + whole("CoordAxisSign", coordSign))));
+  };
+  const auto note = Contains(StartsWith("the file's axes are left-handed, or its up-axis points"));
+  EXPECT_THAT(axes(1, 1, 2, 1, 1), Not(note));
+  EXPECT_THAT(axes(2, 1, 1, -1, 1), Not(note));
+  EXPECT_THAT(axes(1, 1, 2, 1, -1), note);
+  EXPECT_THAT(axes(1, -1, 2, -1, 1), note);
+}
+
+}  // namespace
+}  // namespace corridor::test::mesh_content
