@@ -67,6 +67,24 @@ void noteOnProofs(Problem& problem) {
          NoteWeight::detail});
 }
 
+constexpr std::string_view kNoteOnPadding = "padding.pairs is not kept between ";
+
+/// Adds a note for each pair with a padding of its own that is not tested. Removes earlier such
+/// notes. (A pair of `never_in_contact` is not tested only if its proof covers the padding.)
+void noteOnPadding(Problem& problem) {
+  std::vector<Note>& notes = problem.source.notes;
+  std::erase_if(notes, [](const Note& note) { return note.text.starts_with(kNoteOnPadding); });
+  const Required need = requiredBy(problem.task);
+  for (const auto& [pair, metres] : problem.task.padding.pairs) {
+    const std::string_view why = problem.model.filter.whyNotTested(pair.first, pair.second, need);
+    if (metres == 0 || why.empty() || why == kTestedAtRest || why == kNeverInContact) continue;
+    notes.push_back({std::string(kNoteOnPadding) + problem.model.bodies[pair.first].name + " and " +
+                         problem.model.bodies[pair.second].name + ", which are not tested (" +
+                         std::string(why) + ")",
+                     NoteWeight::coverage});
+  }
+}
+
 /// The largest legal length, metres. Larger lengths are refused, because squares of sums of lengths
 /// must be finite.
 constexpr double kLargestLength = 1e100;
@@ -146,17 +164,20 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   problem.task.tube = tubeOf(problem.model.space, tube);
   noteOnProofs(problem);
+  noteOnPadding(problem);
   addNotesOnPairs(problem);
 }
 
 void setMargin(Problem& problem, double margin) {
   problem.task.margin = margin;
   noteOnProofs(problem);
+  noteOnPadding(problem);
 }
 
 void setTube(Problem& problem, Configuration tube) {
   problem.task.tube = std::move(tube);
   noteOnProofs(problem);
+  noteOnPadding(problem);
 }
 
 }  // namespace corridor

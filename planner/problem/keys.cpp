@@ -38,6 +38,14 @@ void addShape(KeysOfMaps& keys, const std::string& path, const Words& more) {
   keys[path + ".octomap"] = {{"file", "unknown", "threshold"}, {}};
 }
 
+/// Explains, in each map with a rotation, the keys of quaternions whose scalar comes first.
+void explainScalarFirst(KeysOfMaps& keys) {
+  for (auto& [path, map] : keys)
+    if (std::find(map.legal.begin(), map.legal.end(), "quat_xyzw") != map.legal.end())
+      for (const char* key : {"quat_wxyz", "quaternion_wxyz", "wxyz"})
+        map.unsupported.push_back({key, "write quat_xyzw: [x, y, z, w], the scalar last"});
+}
+
 KeysOfMaps makeProblemKeys() {
   KeysOfMaps keys{
       {"",
@@ -73,6 +81,7 @@ KeysOfMaps makeProblemKeys() {
   };
   addShape(keys, "world.*", {"shapes"});
   addShape(keys, "world.*.shapes[]", {"name"});
+  explainScalarFirst(keys);
   return keys;
 }
 
@@ -87,6 +96,7 @@ KeysOfMaps makeRobotKeys() {
       {"never_in_contact", {{"margin", "beyond_limits", "digest", "pairs"}, {}}},
   };
   addShape(keys, "shapes[]", {"name"});
+  explainScalarFirst(keys);
   return keys;
 }
 

@@ -268,10 +268,16 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     shape.parts.push_back(placed(*shape.primitive, whole.X));
     inRange = isFinite(shape.parts.front());
   }
-  if ((hull || *kind == "convex") && !shape.mesh && !shape.file.empty())
-    for (const std::string& text :
-         files.meshes.read(map, hull ? "mesh" : "convex", shape.file)->notes)
+  if ((hull || *kind == "convex") && !shape.mesh && !shape.file.empty()) {
+    const auto mesh = files.meshes.read(map, hull ? "mesh" : "convex", shape.file);
+    for (const std::string& text : mesh->notes)
       shape.notes.push_back({text + ": " + shape.file.string(), NoteWeight::coverage});
+    if (!hull && mesh->floatVertices)  // a format that assimp reads
+      shape.notes.push_back({"the hull is that of the corners of faces, because vertices without a "
+                             "face are not read in this format: " +
+                                 shape.file.string(),
+                             NoteWeight::coverage});
+  }
   if (inRange) return shape;
   faultRange(map);
   return std::nullopt;

@@ -84,43 +84,6 @@ bool isIn(const std::string& word, std::initializer_list<std::string_view> words
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Returns the name of another unit than rad, m and s that a comment clearly gives to the numbers:
-/// `[deg]`, `(mm)`, `in degrees`, `angles: deg`, `units: rad and cm`, `deg, m`. Otherwise returns
-/// "". (A title may say that a joint turns by 90 degrees.)
-std::string otherUnit(const std::string& comment) {
-  const auto isOther = [](const std::string& word) {
-    const double metres = metresOfUnit(word);
-    return (metres > 0 && metres != 1) ||
-           isIn(word, {"deg", "degs", "degree", "degrees", "\u00b0", "mrad", "milliradians", "ms",
-                       "msec", "milliseconds", "us", "microseconds", "ns", "nanoseconds"});
-  };
-  const auto isOwn = [](const std::string& word) {
-    return metresOfUnit(word) == 1 ||
-           isIn(word, {"rad", "radian", "radians", "s", "sec", "second", "seconds"});
-  };
-  const std::vector<CommentWord> words = wordsOfComment(comment);
-  const bool hasOnlyUnits = std::all_of(words.begin(), words.end(), [&](const CommentWord& word) {
-    return isOther(word.text) || isOwn(word.text);
-  });
-  bool isOnUnits = hasOnlyUnits;  // or behind "units:"
-  bool follows = false;           // "in rad and": a unit may follow
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const auto& [word, mark] = words[i];
-    const std::string before = i > 0 ? words[i - 1].text : "";
-    // "units: rad, mm; …": a number before a unit, or a ";", ends the list.
-    if (word == "unit" || word == "units")
-      isOnUnits = true;
-    else if (mark == ';' || std::isdigit(static_cast<unsigned char>(mark)) != 0)
-      isOnUnits = follows = false;
-    const bool isAfterIn = before == "in" && mark == ' ' && !(i > 1 && words[i - 2].text == "not");
-    const bool isClear = isOnUnits || isAfterIn || follows ||
-                         std::string_view("[(:=").find(mark) != std::string::npos;
-    if (isClear && isOther(word)) return word;
-    follows = (isClear && isOwn(word)) || (follows && (word == "and" || word == "or"));
-  }
-  return "";
-}
-
 /// Returns whether a text mentions names as a header would (see resemblesHeader). All words are in
 /// lower case.
 bool mentionsAsHeader(const std::string& text, const std::vector<std::string>& names) {
@@ -162,6 +125,40 @@ std::string withoutMarks(const std::string& word) {
 }
 
 }  // namespace
+
+std::string otherUnit(const std::string& comment) {
+  const auto isOther = [](const std::string& word) {
+    const double metres = metresOfUnit(word);
+    return (metres > 0 && metres != 1) ||
+           isIn(word, {"deg", "degs", "degree", "degrees", "\u00b0", "mrad", "milliradians", "ms",
+                       "msec", "milliseconds", "us", "microseconds", "ns", "nanoseconds"});
+  };
+  const auto isOwn = [](const std::string& word) {
+    return metresOfUnit(word) == 1 ||
+           isIn(word, {"rad", "radian", "radians", "s", "sec", "second", "seconds"});
+  };
+  const std::vector<CommentWord> words = wordsOfComment(comment);
+  const bool hasOnlyUnits = std::all_of(words.begin(), words.end(), [&](const CommentWord& word) {
+    return isOther(word.text) || isOwn(word.text);
+  });
+  bool isOnUnits = hasOnlyUnits;  // or behind "units:"
+  bool follows = false;           // "in rad and": a unit may follow
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto& [word, mark] = words[i];
+    const std::string before = i > 0 ? words[i - 1].text : "";
+    // "units: rad, mm; …": a number before a unit, or a ";", ends the list.
+    if (word == "unit" || word == "units")
+      isOnUnits = true;
+    else if (mark == ';' || std::isdigit(static_cast<unsigned char>(mark)) != 0)
+      isOnUnits = follows = false;
+    const bool isAfterIn = before == "in" && mark == ' ' && !(i > 1 && words[i - 2].text == "not");
+    const bool isClear = isOnUnits || isAfterIn || follows ||
+                         std::string_view("[(:=").find(mark) != std::string::npos;
+    if (isClear && isOther(word)) return word;
+    follows = (isClear && isOwn(word)) || (follows && (word == "and" || word == "or"));
+  }
+  return "";
+}
 
 bool resemblesHeader(const std::string& comment, const std::vector<std::string>& names) {
   std::vector<std::string> lower, bare, last;

@@ -18,6 +18,11 @@ namespace corridor {
 /// @param names the names of the columns of a table without a header.
 bool resemblesHeader(const std::string& comment, const std::vector<std::string>& names);
 
+/// Returns the name of another unit than rad, m and s that a comment, or a column's name, clearly
+/// gives to the numbers: `[deg]`, `(mm)`, `in degrees`, `angles: deg`, `units: rad and cm`, `deg,
+/// m`. Otherwise returns "". (A title may say that a joint turns by 90 degrees.)
+std::string otherUnit(const std::string& comment);
+
 /// Goes through a table of numbers (CSV): trajectories, states, edges. Words are separated by
 /// blanks or commas, and `#` begins a comment. The first line may be a header. The header may be a
 /// comment, as numpy.savetxt writes it: a comment of names only, one for each column or more.

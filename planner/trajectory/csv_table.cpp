@@ -64,6 +64,12 @@ bool isKnown(const std::string& name, const JointNames& names) {
          !names.ambiguous(column.joint).empty();
 }
 
+/// Returns the unit other than rad, m and s that a name states: pan_deg, pan(deg), [deg]. Else "".
+std::string unitIn(const std::string& name) {
+  const std::string unit = otherUnit(name);
+  return unit.empty() ? otherUnit(name.substr(name.find_last_of("_.-/") + 1)) : unit;
+}
+
 class CsvReader {
  public:
   CsvReader(const std::string& file, const JointNames& names)
@@ -111,6 +117,11 @@ class CsvReader {
     for (const std::string& word : words) {
       const Column column = columnOf(word, names_);
       add(column);
+      if (const std::string unit = isKnown(word, names_) ? "" : unitIn(word); !unit.empty())
+        faults_.add(file_, line,
+                    "the column " + quotedWord(word) + " says " + quotedWord(unit) +
+                        ", but the numbers are read in rad, m and s; convert it, and name it by "
+                        "its joint only");
       if (column.quantity == Quantity::ignored) ignored.push_back(word);
       if (column.quantity != Quantity::time) continue;
       if (!time.empty())

@@ -116,6 +116,10 @@ TEST_F(MeshFiles, UpAxesOfTheWorld) {
       (folder_ / "m.gltf").string();
   EXPECT_THAT(notesOf("mesh: m.gltf"), testing::Contains(note));
   EXPECT_THAT(notesOf("convex: m.gltf"), testing::Contains(note));
+  const auto hull = testing::Contains(testing::StartsWith("the hull is that of the corners of"));
+  EXPECT_THAT(notesOf("convex: m.gltf"), hull);
+  EXPECT_THAT(notesOf("mesh: m.gltf"), testing::Not(hull));
+  EXPECT_THAT(notesOf("convex: wedge.obj"), testing::Not(hull));
   write("b.x3d", "<X3D><Scene><Shape><Box size='1 1 1'/></Shape></Scene></X3D>");
   EXPECT_THAT(notesOf("mesh: b.x3d, convex: true, deviation: 9"),
               testing::Contains(testing::HasSubstr("up: y applies it: ")));

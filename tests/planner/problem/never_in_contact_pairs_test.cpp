@@ -68,6 +68,27 @@ TEST_F(NeverInContactPairs, OtherReasonsStay) {
   EXPECT_EQ(skipped(p, "upper", "finger"), "allow");
 }
 
+/// A padding of a pair that is not tested has a note, unless a proof covers it.
+TEST_F(NeverInContactPairs, PaddingsThatAreNotKept) {
+  const auto notes = [&](const std::string& pair, const std::string& more = "") {
+    std::vector<std::string> texts = textsOf(
+        readWith({{"base", "finger"}}, "padding: {pairs: [[" + pair + "]]}\n" + more).source.notes);
+    std::erase_if(texts, [](const std::string& text) { return !text.starts_with("padding"); });
+    return texts;
+  };
+  const auto note = [](const std::string& pair, const std::string& why) {
+    return testing::ElementsAre("padding.pairs is not kept between " + pair +
+                                ", which are not tested (" + why + ")");
+  };
+  EXPECT_THAT(notes("base, upper, 0.1"), note("base and upper", "adjacent"));
+  EXPECT_THAT(notes("lower, base, 0.1"), note("base and lower", "SRDF: Never"));
+  EXPECT_THAT(notes("upper, finger, 0.1", "allow: [[upper, finger]]\n"),
+              note("upper and finger", "allow"));
+  for (const char* kept : {"upper, finger, 0.1", "base, finger, 0.004", "base, finger, 0.1",
+                           "base, upper, 0", "upper, post, 0.1"})
+    EXPECT_THAT(notes(kept), testing::IsEmpty()) << kept;
+}
+
 TEST_F(NeverInContactPairs, OfSeveralRobots) {
   write("arm.yaml", std::string(arm) + listOf({{"base", "finger"}}, {0.0005, 0.1}));
   const auto with = [&](const std::string& more) {

@@ -260,6 +260,11 @@ TEST_F(ProblemFaults, Rotations) {
             "problem.yaml:5: start.quat_xyzw: [x, y, z, w] of norm 1 is needed, not of norm "
             "1e+200; a mistyped number?");
   EXPECT_EQ(start("quat_xyzw: [0, 0, 0.707, 0.707]"), "no complaint");
+  for (const std::string key : {"quat_wxyz", "wxyz", "quaternion_wxyz"})
+    EXPECT_EQ(start(key + ": [1, 0, 0, 0]"),
+              "problem.yaml:5: \"" + key +
+                  "\" in start is not supported yet; write quat_xyzw: [x, y, z, w], the scalar "
+                  "last");
   EXPECT_EQ(start("rpy_deg: [0, 0]"),
             "problem.yaml:5: start.rpy_deg: a list of 3 numbers is needed, not a list of 2");
   EXPECT_EQ(start("rpy_deg: [0, 0, 0], rpy: [0, 0, 0]"),

@@ -9,6 +9,7 @@ namespace {
 using test::numbers;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 using TrajectoryFile = test::TrajectoryTest;
 
@@ -205,6 +206,18 @@ TEST_F(TrajectoryFile, EveryFaultOfRowsIsOneLineWithItsPlace) {
   EXPECT_EQ(complaint("pan lifd\n0 0\n1 1\n"),
             "t.csv:1: the robot has no joint \"lifd\" (did you mean \"lift\"?) (known: pan, lift, "
             "wrist, slide, follow, wag)");
+  for (const auto& [name, unit] :
+       std::vector<std::pair<std::string, std::string>>{{"lift_deg", "deg"},
+                                                        {"lift(deg)", "deg"},
+                                                        {"lift[degrees]", "degrees"},
+                                                        {"lift.mm", "mm"},
+                                                        {"lift [deg]", "deg"}})
+    EXPECT_THAT(
+        complaint("pan," + name + "\n0,0\n1,1\n"),
+        testing::AllOf(StartsWith("t.csv:1: the column \""),
+                       HasSubstr("\" says \"" + unit +
+                                 "\", but the numbers are read in rad, m and s; convert it, "
+                                 "and name it by its joint only")));
   EXPECT_EQ(complaint("time pan\n0 0\n1 1\n"),
             "t.csv:1: there is no column for lift; all joints that are planned for need one");
   EXPECT_EQ(complaint("pan lift pan\n0 0 1\n1 1 1\n"), "t.csv:1: \"pan\" is there twice");
