@@ -3,7 +3,6 @@
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
 find_dependency(HWY)
-find_dependency(Qhull)
 find_dependency(Threads)
 include("${CMAKE_CURRENT_LIST_DIR}/corridorTargets.cmake")
 

@@ -1,11 +1,9 @@
 // The program corridor_assimp: reads one file by assimp and writes the import to its standard
 // output, for assimp_process.cpp. It is a process of its own, so that a damaged file can crash
 // nothing else.
-#include <csignal>
 #include <cstdlib>
 #include <new>
 #include <string>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -13,12 +11,10 @@
 #include "collision/geometry/assimp_import.h"
 
 int main(int count, char** words) {
-  // The arguments are FILE RULES SECONDS BYTES PARENT.
-  if (count != 6) return 2;
+  // The arguments are FILE RULES SECONDS BYTES.
+  if (count != 5) return 2;
   const std::string file = words[1];
   const auto rules = static_cast<corridor::AssimpRules>(std::atoi(words[2]));
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != std::atoi(words[5])) return 2;  // the parent died before prctl took effect
   const auto seconds = static_cast<rlim_t>(std::atof(words[3])) + 1;
   const rlimit time{seconds, seconds}, none{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);

@@ -25,7 +25,7 @@ struct AssimpLimits {
 };
 
 /// Reads a file by assimp in a process of its own. The new process ends when this call or the
-/// calling process ends, or when the new process reaches a limit. Several threads may call this
+/// calling thread ends, or when the new process reaches a limit. Several threads may call this
 /// function at the same time.
 /// @throws InputError: assimp cannot read the file, crashes, or exceeds a limit; or the helper
 /// program is missing or cannot be started.

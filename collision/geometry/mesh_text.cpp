@@ -6,10 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <system_error>
 
+#include "collision/core/decimal_number.h"
 namespace corridor {
 
 std::string printable(std::string_view word) {
@@ -37,20 +36,11 @@ void MeshFaults::failCount(std::uint64_t count, std::string_view what, int line)
 std::optional<std::string> parseCoordinate(std::string_view word, double& value,
                                            bool notFiniteToo) {
   const auto complaint = [&](const char* text) { return "coordinate " + inQuotes(word) + text; };
-  const char* const end = word.data() + word.size();
-  const char* const begin =
-      word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::invalid_argument || stop != end) {
-    return complaint(" is not a number; write decimal numbers such as -1.25e-3");
-  }
-  if (error == std::errc::result_out_of_range) {
-    // The number is too large or too small. from_chars does not report which of these two cases it
-    // is. Reading from a stream shows it, for any exponent.
-    std::istringstream stream(std::string(begin, end));
-    stream.imbue(std::locale::classic());
-    if (!(stream >> value)) return complaint(" is too large for a double");
-  }
+  const auto number = decimalNumber(word);
+  if (!number) return complaint(" is not a number; write decimal numbers such as -1.25e-3");
+  value = *number;
+  if (std::isinf(value) && word.find_first_of("0123456789") != word.npos)
+    return complaint(" is too large for a double");
   if (!notFiniteToo && !std::isfinite(value)) return complaint(" is not finite");
   return std::nullopt;
 }

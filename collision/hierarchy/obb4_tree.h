@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -99,12 +98,6 @@ class Obb4Tree {
   void refit(const TriangleMesh& moved);
 
   std::size_t bytes() const;
-
-  /// Proves these invariants in rational arithmetic. Every box contains every triangle or part
-  /// below it. Each triangle or part is in exactly one leaf. Every node except the root is the
-  /// child of exactly one box. Also checks what obb4.h assumes about boxes. Returns the first
-  /// violation, or nothing.
-  std::optional<std::string> check() const;
 
  private:
   void take(Obb4Layout layout);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -84,12 +83,6 @@ class VolumeTree {
 
   std::size_t depth() const;
   std::size_t bytes() const;
-
-  /// Proves three invariants in rational arithmetic. Every node's volume, as the set that its
-  /// doubles define, contains every triangle of the node, or its parts with their spheres or discs.
-  /// Each leaf primitive is in exactly one leaf. The children of a node partition its leaf
-  /// primitives. Returns the first violation, or nothing.
-  std::optional<std::string> check() const;
 
  private:
   void build(const TreeParams& params);

@@ -180,8 +180,9 @@ Descent descendObb4(std::span<const NodePair4> start, const Obb4Tree& a, const O
   // pad keeps it from doing so.
   const Obb4TreePose pose(a, {}, b, relative.X_AB, HUGE_VAL);
   Moving query(a, b, relative, pose, options, later, context.counters);
-  const std::span<const NodePair4> left = walkObb4(
-      a, b, pose.floats.scale, start, *context.scratch.use<Obb4Stack>(), context.counters, query);
+  const auto stack = context.scratch.use<Obb4Stack>();
+  const std::span<const NodePair4> left =
+      walkObb4(a, b, pose.floats.scale, start, *stack, context.counters, query);
   if (query.result().kind == Descent::Kind::contact)
     later.insert(later.end(), left.begin(), left.end());
   return query.result();

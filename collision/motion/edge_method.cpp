@@ -14,8 +14,9 @@ const std::vector<std::string>& edgeMethodNames() {
 }
 
 std::vector<std::string> provingMethodNames() {
-  std::vector<std::string> names = edgeMethodNames();
-  names.pop_back();
+  std::vector<std::string> names;
+  for (const std::string& name : edgeMethodNames())
+    if (proves(*edgeMethodNamed(name))) names.push_back(name);
   return names;
 }
 

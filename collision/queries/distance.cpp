@@ -5,6 +5,7 @@
 #include <concepts>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "collision/core/rounding.h"
@@ -141,16 +142,16 @@ Distance nearest(const Posed<VolumeTree<Volume>>& a, const Posed<VolumeTree<Volu
   const auto search = [&](Nearest<Volume, Items>& query) {
     traverse(a.shape, b.shape, BoundedPair{0, 0, 0}, *context.scratch.use<BoundedPairs>(), query);
   };
-  Nearest<Volume, Items> query(a, b, options, context);
-  search(query);
+  std::optional<Nearest<Volume, Items>> query(std::in_place, a, b, options, context);
+  search(*query);
   if constexpr (std::same_as<Items, Parts>)
-    if (query.isDenied()) {
-      Nearest<Volume, Items> again(a, b, options, context);
-      again.takeAsApart();
-      search(again);
-      return again.result();
+    if (query->isDenied()) {
+      query.reset();  // returns its scratch memory
+      query.emplace(a, b, options, context);
+      query->takeAsApart();
+      search(*query);
     }
-  return query.result();
+  return query->result();
 }
 
 template <class Items, class Volume>

@@ -64,9 +64,11 @@ Distance distanceOfParts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b,
     walkObb4(a.shape, b.shape, pose.floats.scale, kWholeTrees, *context.scratch.use<Obb4Stack>(),
              context.counters, query);
   };
-  NearestWithParts query(a, b, pose, options, context);
-  search(query);
-  if (!query.isDenied()) return query.result();
+  {
+    NearestWithParts query(a, b, pose, options, context);
+    search(query);
+    if (!query.isDenied()) return query.result();
+  }
   NearestWithParts again(a, b, pose, options, context);
   again.takeAsApart();
   search(again);

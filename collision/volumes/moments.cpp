@@ -1,9 +1,13 @@
 #include "collision/volumes/moments.h"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include <Eigen/Geometry>
 
+#include "collision/convex/quickhull.h"
 #include "collision/core/rounding.h"
 
 namespace corridor {
@@ -70,6 +74,21 @@ Moments surfaceMoments(std::span<const Triangle> triangles) {
   m.mean /= m.weight;
   m.covariance = second / m.weight - m.mean * m.mean.transpose();
   return local.global(m);
+}
+
+Moments hullMoments(std::span<const Triangle> triangles) {
+  if (triangles.size() > (1U << 28) / 3) return {};  // the most points that `quickhull` takes
+  std::vector<Vec3> points;
+  points.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) points.insert(points.end(), t.begin(), t.end());
+  const auto key = [](const Vec3& p) { return std::tuple(p[0], p[1], p[2]); };
+  std::sort(points.begin(), points.end(),
+            [&](const Vec3& p, const Vec3& q) { return key(p) < key(q); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Triangle> facets;
+  for (const auto& [a, b, c] : quickhull(points))
+    facets.push_back({points[a], points[b], points[c]});
+  return facets.empty() ? Moments{} : surfaceMoments(facets);
 }
 
 }  // namespace corridor

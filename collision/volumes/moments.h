@@ -26,8 +26,8 @@ Moments vertexMoments(std::span<const Triangle> triangles);
 /// The weight is 0 if all areas are 0.
 Moments surfaceMoments(std::span<const Triangle> triangles);
 
-/// Returns the moments of the surface of the triangles' convex hull (by Qhull). The weight is 0 if
-/// the hull is flat or Qhull fails.
+/// Returns the moments of the surface of the triangles' convex hull. The weight is 0 if
+/// all corners are on one plane, or there are more than 2^28 corners.
 Moments hullMoments(std::span<const Triangle> triangles);
 
 }  // namespace corridor

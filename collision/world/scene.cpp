@@ -392,8 +392,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
     near.resize(pairs_.size());
     std::iota(near.begin(), near.end(), std::uint32_t{0});
   }
-  const std::vector<std::uint32_t> tested = near;  // a copy: the queries below overwrite `near`
-  for (const std::uint32_t i : tested) {
+  for (const std::uint32_t i : near) {
     MotionResult& result = results[i];
     MotionOptions own = options;
     own.margin = options.marginOf(i);

@@ -40,7 +40,7 @@ const std::atomic<bool>& listenForInterrupts(SecondInterrupt second) {
   secondEnds = second == SecondInterrupt::ends;
   struct sigaction action {};
   action.sa_handler = onInterrupt;
-  action.sa_flags = SA_RESTART;  // a signal doesn't end the reading of a pipe, such as gnuplot's
+  action.sa_flags = SA_RESTART;  // a signal doesn't end the reading of a pipe
   for (const int signal : kUserSignals) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);

@@ -20,7 +20,7 @@
 #include "planner/app/solve_many.h"
 #include "planner/app/solve_one.h"
 #include "planner/problem/keys.h"
-#include "planner/view/svg_picture.h"
+#include "planner/view/path_picture.h"
 
 namespace corridor::app {
 namespace {
@@ -77,10 +77,6 @@ void requireFiles(const SolveArguments& a) {
                            "solutions are written as YAML, and .path is a format of OMPL: a name "
                            "that ends in .yaml is needed"});
   if (a.output != "-") requireWritable(a.output, "--output");
-  if (a.picture && lowered(std::filesystem::path(*a.picture).extension().string()) == ".png")
-    throw InputError(Fault{"--picture", 0,
-                           "pictures are SVG: a name that ends in .svg is needed; corridor view "
-                           "--image draws PNG"});
   if (a.picture != "-") requireWritable(a.picture, "--picture");
   if ((a.json || a.jsonLines) && printsFile(a))
     throw InputError(Fault{a.output == "-" ? "--output" : "--picture", 0,
@@ -235,8 +231,9 @@ void addSolve(CLI::App& program, int& status) {
       ->group(results);
   command
       ->add_option("--picture", a.picture,
-                   "write an SVG of the scene and the path to this file (-: standard output), or, "
-                   "for several problems, to this folder")
+                   "write a picture of the scene and the path to this file: .svg, or .png without "
+                   "a caption (-: SVG to standard output); for several problems, SVGs to this "
+                   "folder")
       ->group(results);
   addFrom(*command, a.from, results);
   const char* motion = "Trajectory";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <unistd.h>
 
@@ -15,10 +16,14 @@
 #include "planner/solve/solution.h"
 #include "planner/solve/whole_file.h"
 #include "planner/trajectory/trajectory_text.h"
-#include "planner/view/svg_picture.h"
+#include "planner/view/path_picture.h"
 
 namespace corridor::app {
 namespace {
+
+bool isPng(const std::string& file) {
+  return lowered(std::filesystem::path(file).extension().string()) == ".png";
+}
 
 /// Returns whether solution `a` is better than solution `b`.
 bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const SolveReport& b,
@@ -129,7 +134,8 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
     if (a.picture == "-")
       std::cout << svgPicture(problem, report.path, from, seconds);
     else if (a.picture)
-      writeWhole(*a.picture, svgPicture(problem, report.path, from, seconds));
+      writeWhole(*a.picture, isPng(*a.picture) ? pngPicture(problem, report.path, from)
+                                               : svgPicture(problem, report.path, from, seconds));
   }
   return {std::move(problem), std::move(report), reading.count(), tries};
 }

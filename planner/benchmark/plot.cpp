@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "collision/core/external_program.h"
 #include "collision/core/shortest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/csv_text.h"
@@ -167,23 +165,17 @@ std::string runGnuplot(const std::string& script) {
     std::filesystem::remove(file);
     throw std::runtime_error("can't write a plot's file: " + file);
   }
-  std::string out;
-  int status = -1;
-  std::string word = file;  // quoted for the shell: TMPDIR may contain any characters
-  replaceAll(word, "'", "'\\''");
-  // -d ignores the user's own settings (~/.gnuplot). Because of the trap, gnuplot ignores signals
-  // to the whole process group (user_signals.h): only the parent decides what happens then.
-  const std::string command = "trap '' INT TERM HUP USR1; exec gnuplot -d '" + word + "' 2>&1";
-  if (FILE* const pipe = ::popen(command.c_str(), "r")) {
-    std::array<char, 65536> part;
-    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe))
-      out.append(part.data(), n);
-    status = ::pclose(pipe);
-  }
+  // -d ignores the user's own settings (~/.gnuplot).
+  const ProgramEnd end = runProgram({{findProgram("gnuplot").string(), "-d", file}});
   std::filesystem::remove(file);
-  const auto begin = out.find("<?xml");
-  if (status != 0 || begin == std::string::npos) throw std::runtime_error("gnuplot: " + out);
-  return out.substr(begin);
+  const auto begin = end.out.find("<?xml");
+  if (end.why != ProgramEnd::Why::exited)
+    throw std::runtime_error(
+        "gnuplot did not end as it should: a time limit, too much output, "
+        "or SIGCHLD is ignored");
+  if (end.exitStatus != 0 || begin == std::string::npos)
+    throw std::runtime_error("gnuplot: " + end.out + end.err);
+  return end.out.substr(begin);
 }
 
 }  // namespace
@@ -197,7 +189,7 @@ std::string plotColor(std::size_t number) {
 }
 
 bool canPlot() {
-  static const bool there = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  static const bool there = !findProgram("gnuplot").empty();
   return there;
 }
 

@@ -213,6 +213,8 @@ MotionResult Checker::certifyState(const Configuration& q) const {
 
 MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
                                   const EdgeQuery& query) const {
+  if (query.margins && query.certificate)
+    throw std::invalid_argument("EdgeQuery: a certificate is for the checker's own margins");
   const bool isPlain = !query.margins && !query.certificate;
   return certify(from, to, query, isPlain ? method_ : EdgeMethod::directional);
 }

@@ -54,9 +54,9 @@ struct EdgeQuery {
   /// replace the padding. Null: the padding.
   const PairMargins* margins = nullptr;
   /// Where to store what was proved; null: nowhere. The pairs of the certificate are those of
-  /// `Scene::pairs()`. A certificate is about surfaces, so it is empty if the verdict follows from
-  /// containment in a solid mesh. The query then takes longer, because every pair is proved,
-  /// without a broad phase.
+  /// `Scene::pairs()`. Every pair is then proved by itself, without a broad phase, which takes
+  /// longer. A certificate is about surfaces, so it is empty if the verdict follows from
+  /// containment in a solid mesh. Not with `margins`, which `faultOf` does not know.
   MotionCertificate* certificate = nullptr;
 };
 
@@ -128,7 +128,8 @@ class Checker {
   MotionResult certifyState(const Configuration& q) const;
   /// Decides whether an edge is free. The method is that of the options; with `margins` or a
   /// `certificate` it is `EdgeMethod::directional`.
-  /// @throws std::invalid_argument for margins that are negative or not finite.
+  /// @throws std::invalid_argument for margins that are negative or not finite, or if both
+  /// `margins` and `certificate` are set.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
                            const EdgeQuery& query = {}) const;
   /// Checks a certificate of an edge, by a method that is independent of the method that made the

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <numbers>
 
+#include "collision/core/decimal_number.h"
 #include "planner/model/settings.h"
 #include "planner/problem/text_words.h"
 
@@ -81,17 +81,9 @@ std::string parseNumber(std::string_view text, Range range, double& value) {
   for (const char* name :
        {".nan", ".NaN", ".NAN", ".inf", "-.inf", "+.inf", ".Inf", "-.Inf", ".INF", "-.INF"})
     if (text == name) return "a finite number is needed, not " + quotedWord(text);
-  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-  const char* const begin = text.data() + (plus ? 1 : 0);
-  const char* const end = text.data() + text.size();
-  double number = 0;
-  const auto [stop, error] = std::from_chars(begin, end, number);
-  if (stop != end || error == std::errc::invalid_argument)
-    return "a number is needed, not " + quotedWord(text) + hintOnComma(text);
-  // from_chars does not report whether the number is too large or too small; strtod returns
-  // infinity, or the nearest double.
-  if (error == std::errc::result_out_of_range)
-    number = std::strtod(std::string(begin, end).c_str(), nullptr);
+  const auto read = decimalNumber(text);
+  if (!read) return "a number is needed, not " + quotedWord(text) + hintOnComma(text);
+  const double number = *read;
   if (!std::isfinite(number)) return "a finite number is needed, not " + quotedWord(text);
   if (range == Range::NotNegative && number < 0)
     return "must be 0 or more, not " + std::string(text);

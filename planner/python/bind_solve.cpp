@@ -14,7 +14,7 @@
 #include "planner/solve/solution.h"
 #include "planner/solve/solve.h"
 #include "planner/solve/verify_solution.h"
-#include "planner/view/svg_picture.h"
+#include "planner/view/path_picture.h"
 #include "planner/view/view_page.h"
 
 namespace corridor::python {
@@ -217,6 +217,20 @@ std::string picture(const NativeProblem& native, const Array& states,
   return svgPicture(native.problem(), path, from);
 }
 
+/// Returns the same picture as the bytes of a PNG file.
+py::bytes png(const NativeProblem& native, const Array& states,
+              const std::optional<std::string>& seenFrom, int width) {
+  std::optional<ViewDirection> from;
+  if (seenFrom) from = viewDirection(*seenFrom, "seen_from");
+  const Path path = solutionFrom(native.problem(), states).path;
+  std::string bytes;
+  {
+    const py::gil_scoped_release unlocked;
+    bytes = pngPicture(native.problem(), path, from, width);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 void bindSolve(py::module_& module) {
@@ -226,6 +240,7 @@ void bindSolve(py::module_& module) {
   module.def("verify_trajectory", &verifyTrajectoryOf, arg("problem"), arg("text"));
   module.def("page", &page, arg("problem"), arg("path"));
   module.def("picture", &picture, arg("problem"), arg("path"), arg("seen_from"));
+  module.def("png", &png, arg("problem"), arg("path"), arg("seen_from"), arg("width"));
 }
 
 }  // namespace corridor::python

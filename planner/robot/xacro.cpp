@@ -5,9 +5,9 @@
 #include <system_error>
 
 #include "collision/core/error.h"
+#include "collision/core/external_program.h"
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
-#include "planner/robot/run_program.h"
 
 namespace corridor {
 namespace {

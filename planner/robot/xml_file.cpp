@@ -1,11 +1,10 @@
 #include "planner/robot/xml_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
+#include "collision/core/decimal_number.h"
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
@@ -28,14 +27,9 @@ std::vector<std::string> wordsOf(std::string_view text) {
 
 /// Reads a number. Sets `value` and returns "" on success; otherwise returns a complaint.
 std::string parseNumber(const std::string& word, double& value) {
-  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-  const char* const begin = word.data() + (plus ? 1 : 0);
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || error == std::errc::invalid_argument)
-    return "a number is needed, not " + quotedWord(word);
-  // from_chars reports overflow and underflow alike; strtod returns infinity or a tiny number.
-  if (error == std::errc::result_out_of_range) value = std::strtod(begin, nullptr);
+  const auto number = decimalNumber(word);
+  if (!number) return "a number is needed, not " + quotedWord(word);
+  value = *number;
   if (!std::isfinite(value)) return "a finite number is needed, not " + quotedWord(word);
   return "";
 }

@@ -9,7 +9,7 @@
 namespace corridor {
 
 /// The content of a solution file, which `corridor solve -o` writes and `corridor verify` reads:
-/// YAML, format corridor-solution-1 (keys in planner/README.md). Metres, radians.
+/// YAML, format corridor-solution-1 (keys in planner/FORMATS.md). Metres, radians.
 struct Solution {
   /// The name of the problem's file. In a solution file, this name is relative to the folder of the
   /// solution file.

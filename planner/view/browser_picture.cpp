@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/core/external_program.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
-#include "planner/robot/run_program.h"
 #include "planner/solve/whole_file.h"
 
 extern char** environ;

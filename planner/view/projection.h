@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <functional>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "collision/core/transform.h"
@@ -9,7 +11,7 @@
 namespace corridor::view {
 
 /// A parallel projection from world coordinates (metres) to picture coordinates (pixels): x to the
-/// right, y down, z (the depth) towards the viewer.
+/// right, y down, z (the depth) from the farthest point towards the viewer.
 class Camera {
  public:
   /// @param azimuth the direction of the viewer about z, radians. @param elevation the angle of the
@@ -28,31 +30,53 @@ class Camera {
 
  private:
   Vec3 right_, up_, toViewer_;
-  double scale_ = 1, left_ = 0, top_ = 0, width_ = 0, height_ = 0;
+  double scale_ = 1, left_ = 0, top_ = 0, farthest_ = 0, width_ = 0, height_ = 0;
 };
 
 using Corners = std::array<Vec3, 3>;  ///< of a triangle, in picture coordinates
 
-/// A depth buffer. For each pixel, it also stores which owner (an integer, such as the index of a
-/// face) the nearest surface belongs to.
-class DepthBuffer {
- public:
-  /// @param width, height of the picture, pixels. @param bufferPixelsPerPixel pixels of the buffer
-  /// along one pixel of the picture.
-  DepthBuffer(double width, double height, double bufferPixelsPerPixel);
+/// Some rows of a grid of pixels.
+struct PixelGrid {
+  int columns = 0;         ///< pixels in a row
+  int begin = 0, end = 0;  ///< the rows from `begin` to before `end`
 
-  /// Calls visit(pixel, depth) for each pixel whose centre the triangle covers.
-  void cover(const Corners& corners, const std::function<void(std::size_t, double)>& visit) const;
-  void draw(const Corners& corners, int owner);
-  double depth(std::size_t pixel) const { return depth_[pixel]; }
-  /// Returns the number of pixels of each owner in [0, owners).
-  std::vector<int> pixelsOf(int owners) const;
-
- private:
-  double scale_;
-  int columns_, rows_;
-  std::vector<double> depth_;
-  std::vector<int> owner_;
+  std::size_t size() const { return static_cast<std::size_t>(columns) * (end - begin); }
+  /// Calls visit(pixel, depth) for each pixel whose centre the triangle covers. Pixels are counted
+  /// from 0, row by row. @param corners in pixels.
+  template <class Visit>
+  void cover(const Corners& corners, const Visit& visit) const {
+    const auto& [a, b, c] = corners;
+    const auto within = [](double v, int low, int high) {
+      return static_cast<int>(std::clamp(v, double(low), double(high)));
+    };
+    if (!(std::max({a.y(), b.y(), c.y()}) >= begin && std::min({a.y(), b.y(), c.y()}) <= end))
+      return;
+    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    if (!(std::abs(area) > 1e-9)) return;
+    const int x0 = within(std::min({a.x(), b.x(), c.x()}), 0, columns - 1),
+              x1 = within(std::max({a.x(), b.x(), c.x()}), 0, columns - 1);
+    const int y0 = within(std::min({a.y(), b.y(), c.y()}), begin, end - 1),
+              y1 = within(std::max({a.y(), b.y(), c.y()}), begin, end - 1);
+    for (int y = y0; y <= y1; ++y) {
+      // The pixels of the row between the triangle's edges, and one more on each side.
+      double from = x0, to = x1;
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 &p = corners[i], &q = corners[(i + 1) % 3];
+        const double slope = (area > 0 ? 1 : -1) * (p.y() - q.y());
+        const double x = p.x() + (y + 0.5 - p.y()) * (q.x() - p.x()) / (q.y() - p.y());
+        if (slope > 0) from = std::max(from, x - 1.5);
+        if (slope < 0) to = std::min(to, x + 0.5);
+      }
+      for (int x = static_cast<int>(std::max(from, double(x0))); x <= x1 && x <= to; ++x) {
+        const double px = x + 0.5, py = y + 0.5;
+        const double u = ((px - a.x()) * (c.y() - a.y()) - (py - a.y()) * (c.x() - a.x())) / area;
+        const double v = ((b.x() - a.x()) * (py - a.y()) - (b.y() - a.y()) * (px - a.x())) / area;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        visit(static_cast<std::size_t>(y - begin) * columns + x,
+              a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z()));
+      }
+    }
+  }
 };
 
 }  // namespace corridor::view

@@ -15,8 +15,7 @@
 #include "collision/convex/quickhull.h"
 #include "collision/hierarchy/obb4_tree.h"
 #include "collision/hierarchy/with_trees.h"
-#include "planner/view/projection.h"
-#include "planner/view/svg_faces.h"
+#include "planner/view/raster.h"
 #include "planner/view/tessellate.h"
 #include "planner/view/volume_outline.h"
 
@@ -24,11 +23,11 @@ namespace corridor {
 namespace {
 
 using view::Camera;
-using view::Face;
+using view::Surface;
 
 constexpr double kPictureWidth = 640, kPictureBorder = 12;  // sizes of the picture, pixels
-/// Limits of the length of the SVG text, in bytes: of the mesh, and of all volumes together.
-constexpr std::size_t kMeshLimit = 50'000, kVolumesLimit = 40'000;
+/// The limit of the length of the SVG text of all volumes together, bytes.
+constexpr std::size_t kVolumesLimit = 40'000;
 /// A line is drawn between two faces of a volume whose normals differ by more than this angle.
 constexpr double kCrease = 12 * std::numbers::pi / 180;
 
@@ -185,31 +184,14 @@ VolumePicture volumePicture(const TriangleMesh& mesh, const TreeNames& trees, st
         volume.radius > 0 ? view::tessellated(volume).vertices : volume.points;
     points.insert(points.end(), own.begin(), own.end());
   }
-  // Add six points around the centre: without them, a single point, or a segment along the line of
-  // sight, would have no extent in the picture.
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double size = (high - low).maxCoeff(), least = size > 0 ? 1e-3 * size : 1;
-  for (int k = 0; k < 3; ++k)
-    for (const double side : {-least, least})
-      points.emplace_back(0.5 * (low + high) + side * Vec3::Unit(k));
   camera.fit(points, kPictureWidth, kPictureBorder);
-  std::vector<Face> faces;
+  std::vector<Surface> surfaces;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    cut(makeFace(camera, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, 'w'), faces);
-
-  char head[256];
-  std::snprintf(head, sizeof head,
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
-                "stroke-width=\".8\" stroke-linejoin=\"round\">\n",
-                camera.width(), camera.height());
-  std::string svg = std::string(head) + "<style>\n" +
-                    view::palette('w', {112, 118, 130}, {233, 232, 226}) +
-                    "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
-  svg += drawVisible(camera, faces, kMeshLimit) + "<g fill-opacity=\".13\" stroke-width=\"1\">\n";
+    surfaces.push_back(makeSurface(camera,
+                                   {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
+                                   {{112, 118, 130}, {233, 232, 226}}));
+  const std::string svg =
+      svgHead(camera, surfaces, {}) + "<g fill-opacity=\".13\" stroke-width=\"1\">\n";
   // The farthest volumes are drawn first. The index of a volume on the level determines its colour,
   // so that neighbours differ.
   std::vector<std::pair<double, std::size_t>> order;

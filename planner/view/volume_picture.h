@@ -13,7 +13,7 @@ namespace corridor {
 
 /// A picture of one level of a tree.
 struct VolumePicture {
-  std::string svg;  ///< at most some 100 KB
+  std::string svg;  ///< at most some 200 KB
   /// The number of volumes in the picture. If some are left out, the nearest are drawn.
   std::size_t drawn = 0;
   /// The number of volumes on the level, including the leaves of the levels above.

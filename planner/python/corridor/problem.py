@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native, pictures, workers
+from . import _native, workers
 from ._arguments import _array, _flag, _text, _whole
 from .certificates import Certificate, certificate_of
 from .results import Results
@@ -335,23 +335,29 @@ class Solution:
         self._require_path()
         return _native.page(self.problem._native, self.path)
 
+    def _require_view(self, seen_from: str | None) -> None:
+        self._require_path()
+        if seen_from is not None and not isinstance(seen_from, str):
+            raise ValueError(f'seen_from: a text is needed, such as "front" or "-60,38", not {seen_from!r}')
+
     def svg(self, seen_from: str | None = None) -> str:
         """Returns a picture of the scene and the path: an SVG document.
 
         `seen_from` is where the viewer stands: "front" (at +x), "back", "left" (at +y), "right", "top", "bottom", or
         "AZIMUTH,ELEVATION" in degrees, such as "-60,38". Without it, the scene is seen from above at an angle.
         """
-        self._require_path()
-        if seen_from is not None and not isinstance(seen_from, str):
-            raise ValueError(f'seen_from: a text is needed, such as "front" or "-60,38", not {seen_from!r}')
+        self._require_view(seen_from)
         return _native.picture(self.problem._native, self.path, seen_from)
 
     def png(self, width: int = 1200, seen_from: str | None = None) -> bytes:
-        """Returns the picture of `svg` as the bytes of a PNG file, `width` pixels wide.
+        """Returns the picture of `svg` as the bytes of a PNG file.
 
-        The program rsvg-convert of Debian's package librsvg2-bin draws it. Raises RuntimeError if it is missing.
+        `width` is the number of pixels of the longer side, which is the width for most scenes: 1 to 8000.
         """
-        return pictures.png_of(self.svg(seen_from), width)
+        self._require_view(seen_from)
+        if isinstance(width, bool) or not isinstance(width, int) or not 1 <= width <= 8000:
+            raise ValueError(f"width: a whole number from 1 to 8000 is needed, not {width!r}")
+        return _native.png(self.problem._native, self.path, seen_from, width)
 
     def view(self, file: str | os.PathLike[str] | None = None) -> str:
         """Writes the page to a file; without `file`, opens it in a browser. Returns the name of the file."""
@@ -371,7 +377,7 @@ class Solution:
         return _frame(self.page()) if self else f"<p>{html.escape(repr(self))}</p>"
 
     def _repr_png_(self) -> bytes | None:
-        return self.png() if self and pictures.can_draw() else None
+        return self.png() if self else None
 
 
 def solve(

@@ -107,7 +107,7 @@ TEST_F(AssimpProcess, CannotBeStarted) {
             "install it with the library, or save the mesh as OBJ, STL, PLY or OFF");
   EXPECT_EQ(complaint({60, 1 << 30, folder_ / "none"}),
             "assimp is needed for this format, and its program " + (folder_ / "none").string() +
-                " cannot be started: No such file or directory");
+                " cannot be run");
 }
 
 TEST_F(AssimpProcess, MemoryEnds) {

@@ -15,6 +15,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
+#include "tests/support/tree_fault.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
@@ -31,7 +32,7 @@ TEST(Obb4Tree, ContainsItsTrianglesInRationals) {
         v = (v + Vec3(offset, 0, -offset)).unaryExpr([&](double x) {
           return std::ldexp(x, exponent);
         });
-      EXPECT_EQ(Obb4Tree(mesh).check(), std::nullopt) << offset << " 2^" << exponent;
+      EXPECT_EQ(test::treeFault(Obb4Tree(mesh)), std::nullopt) << offset << " 2^" << exponent;
     }
 }
 
@@ -48,7 +49,7 @@ TEST(Obb4Tree, ContainsTrianglesUnderFlushToZero) {
     _mm_setcsr(before | 0x8040);
     const Obb4Tree tree(mesh);
     _mm_setcsr(before);
-    EXPECT_EQ(tree.check(), std::nullopt) << exponent;
+    EXPECT_EQ(test::treeFault(tree), std::nullopt) << exponent;
   }
 }
 #endif
@@ -70,7 +71,7 @@ TEST(Obb4Tree, ContainsItsConvexPartInRationals) {
                       10 * size * vector()};
     for (const Primitive& primitive : primitives) {
       const Obb4Tree tree(placed(primitive, n % 3 ? X : Transform()));
-      ASSERT_EQ(tree.check(), std::nullopt) << nameOf(primitive) << ' ' << n;
+      ASSERT_EQ(test::treeFault(tree), std::nullopt) << nameOf(primitive) << ' ' << n;
       ASSERT_TRUE(tree.hasParts());
       const ConvexPart& part = tree.part(0);
       for (const Vec3& p : part.points) {
@@ -91,7 +92,7 @@ TEST(Obb4Tree, SharedMeshes) {
                            "touching_boxes_B", "panda_hand", "box"}) {
     const Obb4Tree tree(
         test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj")));
-    EXPECT_EQ(tree.check(), std::nullopt) << name;
+    EXPECT_EQ(test::treeFault(tree), std::nullopt) << name;
   }
 }
 
@@ -105,7 +106,7 @@ TEST(Obb4Tree, FewAndDegenerateTriangles) {
     }
     for (const TriangleMesh* mesh : {&point, &segment, &same}) {
       const Obb4Tree tree(*mesh);
-      EXPECT_EQ(tree.check(), std::nullopt) << n;
+      EXPECT_EQ(test::treeFault(tree), std::nullopt) << n;
       EXPECT_EQ(tree.triangleCount(), static_cast<std::size_t>(n));
     }
   }
@@ -119,7 +120,7 @@ TEST(Obb4Tree, DeepAndIndivisible) {
     const double s = std::ldexp(1.0, -i);
     add(deep, Vec3(s, 0, 0), Vec3(s, s / 4, 0), Vec3(s, 0, s / 4));
   }
-  EXPECT_EQ(Obb4Tree(deep).check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(Obb4Tree(deep)), std::nullopt);
   same.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   same.triangles.assign(10'000, {0, 1, 2});
   const Obb4Tree tree(same);
@@ -201,13 +202,13 @@ TEST(Obb4Tree, CheckFindsWhatIsWrong) {
   TriangleMesh mesh;
   add(mesh, Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
   Obb4Tree tree(mesh);
-  EXPECT_EQ(tree.check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(tree), std::nullopt);
   const_cast<Obb4Tree::Node&>(tree.nodes()[0]).half[1][0] *= 0.99F;  // NOLINT
-  EXPECT_EQ(tree.check(), "a box above does not contain triangle 0");
+  EXPECT_EQ(test::treeFault(tree), "a box above does not contain triangle 0");
 
   Obb4Tree other(mesh);
   const_cast<Obb1&>(other.root()).half[1] *= 0.99F;  // NOLINT
-  EXPECT_EQ(other.check(), "a box above does not contain triangle 0");
+  EXPECT_EQ(test::treeFault(other), "a box above does not contain triangle 0");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "collision/queries/interference.h"
 #include "tests/support/meshes.h"
 #include "tests/support/support.h"
+#include "tests/support/tree_fault.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
@@ -30,7 +31,7 @@ TEST_P(Fits, ContainsItsTrianglesInRationals) {
       add(mesh, c, c + s * Vec3(real(), real(), real()),
           c + s * Vec3(real(), real(), real() * (i % 3)));
     }
-    EXPECT_EQ(ObbTree(mesh, {GetParam()}).check(), std::nullopt) << offset;
+    EXPECT_EQ(test::treeFault(ObbTree(mesh, {GetParam()})), std::nullopt) << offset;
   }
 }
 
@@ -42,7 +43,7 @@ TEST_P(Fits, SharedMeshes) {
     const ObbTree tree(
         test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj")),
         {GetParam()});
-    EXPECT_EQ(tree.check(), std::nullopt) << name;
+    EXPECT_EQ(test::treeFault(tree), std::nullopt) << name;
   }
 }
 
@@ -73,11 +74,11 @@ TEST_P(Fits, SinglePointAndSegment) {
   TriangleMesh point;
   add(point, Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3));
   const ObbTree tree(point, {GetParam()});
-  EXPECT_EQ(tree.check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(tree), std::nullopt);
   EXPECT_LT(tree.node(0).radius, 1e-14);
   TriangleMesh segment;
   add(segment, Vec3(0, 0, 0), Vec3(3, 4, 0), Vec3(3, 4, 0));
-  EXPECT_EQ(ObbTree(segment, {GetParam()}).check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(ObbTree(segment, {GetParam()})), std::nullopt);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Fits,
@@ -124,7 +125,7 @@ TEST(ObbTree, OfAConvexPart) {
         offset * Vec3(real(), real(), real())};
     const ConvexPart part = placed(p, X);
     const ObbTree tree(part);
-    EXPECT_EQ(tree.check(), std::nullopt) << nameOf(p) << " " << n;
+    EXPECT_EQ(test::treeFault(tree), std::nullopt) << nameOf(p) << " " << n;
     ASSERT_EQ(tree.nodes().size(), 1U);
     EXPECT_TRUE(tree.node(0).isLeaf());
     ASSERT_TRUE(tree.hasParts());

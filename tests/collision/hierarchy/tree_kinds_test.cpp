@@ -10,6 +10,7 @@
 #include "collision/hierarchy/with_trees.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
+#include "tests/support/tree_fault.h"
 
 namespace corridor {
 namespace {
@@ -169,8 +170,8 @@ TEST(TreeKinds, BodiesBuildTheChosenTrees) {
        {TreeKind::obbBinary, TreeKind::aabb, TreeKind::kdop14, TreeKind::kdop26, TreeKind::shell,
         TreeKind::ellipsoid, TreeKind::hull})
     withVolume(trees, [&]<class Volume, class Overlap>() {
-      EXPECT_FALSE(mesh.volumeTree<Volume>().check());
-      EXPECT_FALSE(part.volumeTree<Volume>().check());
+      EXPECT_FALSE(test::treeFault(mesh.volumeTree<Volume>()));
+      EXPECT_FALSE(test::treeFault(part.volumeTree<Volume>()));
       EXPECT_TRUE(part.volumeTree<Volume>().hasParts());
     });
   EXPECT_TRUE(part.treeBuilt());

@@ -10,6 +10,7 @@
 #include "tests/collision/hierarchy/volumes.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
+#include "tests/support/tree_fault.h"
 #include "tests/support/workload.h"
 
 namespace corridor {
@@ -30,7 +31,7 @@ TYPED_TEST(VolumeTrees, ContainWhatTheyHold) {
       for (const double size : {1.0, 1e-7}) {
         TriangleMesh mesh = soup(random, 60, size);
         for (Vec3& v : mesh.vertices) v += Vec3(offset, 0, -offset);
-        EXPECT_EQ(VolumeTree<TypeParam>(mesh, params).check(), std::nullopt)
+        EXPECT_EQ(test::treeFault(VolumeTree<TypeParam>(mesh, params)), std::nullopt)
             << test::str(params) << " at " << offset << ", triangles of " << size;
       }
 }
@@ -49,16 +50,16 @@ TYPED_TEST(VolumeTrees, NeedATriangleOrAPart) {
 TYPED_TEST(VolumeTrees, ContainPointsSegmentsAndExtremes) {
   std::mt19937_64 random(test::testSeed(2));
   TriangleMesh point{{Vec3(1, 2, 3)}, {{0, 0, 0}}};
-  EXPECT_EQ(VolumeTree<TypeParam>(point).check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(VolumeTree<TypeParam>(point)), std::nullopt);
   EXPECT_LT(VolumeTree<TypeParam>(point).node(0).radius, 1e-13);
   TriangleMesh segment{{Vec3(0, 0, 0), Vec3(3, 4, 0)}, {{0, 1, 1}, {1, 0, 0}}};
-  EXPECT_EQ(VolumeTree<TypeParam>(segment).check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(VolumeTree<TypeParam>(segment)), std::nullopt);
   for (const int exponent : {-1060, -500, -340, 330, 500, 1000}) {
     TriangleMesh mesh = soup(random, 20, 0.3);
     for (Vec3& v : mesh.vertices)
       v = v.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
     for (const TreeParams& params : kParams)
-      EXPECT_EQ(VolumeTree<TypeParam>(mesh, params).check(), std::nullopt)
+      EXPECT_EQ(test::treeFault(VolumeTree<TypeParam>(mesh, params)), std::nullopt)
           << exponent << " " << test::str(params);
   }
 }
@@ -101,7 +102,7 @@ TYPED_TEST(VolumeTrees, OverManyConvexParts) {
   const auto parts = test::parts(random, 40, 0.1);
   for (const TreeParams& params : kParams) {
     const VolumeTree<TypeParam> tree(parts, params);
-    EXPECT_EQ(tree.check(), std::nullopt) << test::str(params);
+    EXPECT_EQ(test::treeFault(tree), std::nullopt) << test::str(params);
     EXPECT_EQ(tree.nodes().size(), 79U);
     EXPECT_EQ(VolumeTree<TypeParam>(parts[0]).nodes().size(), 1U);
   }
@@ -127,7 +128,7 @@ TYPED_TEST(VolumeTrees, RefitContainsTheMovedTriangles) {
     for (int step = 0; step < 3; ++step) {
       for (Vec3& v : mesh.vertices) v += Vec3(0.3 * v[1], 0.1 * normal(random), 1e3 * (step == 2));
       tree.refit(mesh);
-      EXPECT_EQ(tree.check(), std::nullopt) << test::str(params);
+      EXPECT_EQ(test::treeFault(tree), std::nullopt) << test::str(params);
       QueryContext context;
       EXPECT_EQ(interference(Posed(tree), Posed(b), context).has_value(),
                 interference(Posed(VolumeTree<TypeParam>(mesh)), Posed(b), context).has_value());
@@ -149,7 +150,7 @@ TYPED_TEST(VolumeTrees, SharedMeshes) {
     const TriangleMesh mesh =
         test::plainObj(*data / "collision" / "meshes" / (std::string(name) + ".obj"));
     for (const TreeParams& params : kParams)
-      EXPECT_EQ(VolumeTree<TypeParam>(mesh, params).check(), std::nullopt)
+      EXPECT_EQ(test::treeFault(VolumeTree<TypeParam>(mesh, params)), std::nullopt)
           << name << " " << test::str(params);
   }
 }

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "collision/hierarchy/exact_hull.h"
-#include "collision/hierarchy/exact_round_volumes.h"
+#include "tests/support/exact_hull.h"
+#include "tests/support/exact_round_volumes.h"
 #include "collision/volumes/direction_search.h"
 #include "collision/volumes/pair_tests.h"
 #include "tests/support/rational_program.h"

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "collision/hierarchy/exact_volume.h"
+#include "tests/support/exact_volume.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
 #include "tests/support/support.h"
 

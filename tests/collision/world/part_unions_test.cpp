@@ -14,6 +14,7 @@
 #include "tests/collision/motion/bodies.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"
+#include "tests/support/tree_fault.h"
 
 namespace corridor::test {
 namespace {
@@ -52,8 +53,8 @@ TEST(PartUnions, TreesContainAllParts) {
       for (Vec3& p : part.points) p = size * (p + Vec3(count % 2 ? 0 : 1e4, 0, 0));
     }
     const Body body("", all);
-    EXPECT_EQ(body.tree().check(), std::nullopt) << count;
-    EXPECT_EQ(body.volumeTree<Kdop<18>>().check(), std::nullopt) << count;
+    EXPECT_EQ(test::treeFault(body.tree()), std::nullopt) << count;
+    EXPECT_EQ(test::treeFault(body.volumeTree<Kdop<18>>()), std::nullopt) << count;
     EXPECT_EQ(body.tree().itemCount(), all.size());
     for (const ConvexPart& part : all)
       for (const Vec3& p : part.points) {
@@ -65,16 +66,16 @@ TEST(PartUnions, TreesContainAllParts) {
       }
   }
   const Body surface("", cloud(12));
-  EXPECT_EQ(surface.tree().check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(surface.tree()), std::nullopt);
 }
 
-/// `check()` must find a box that is too small; otherwise the test above would prove nothing.
+/// `treeFault` must find a box that is too small; otherwise the test above would prove nothing.
 TEST(PartUnions, CheckFindsAPartOutsideOfItsBox) {
   auto parts = std::make_shared<std::vector<ConvexPart>>(cloud(5));
   const Obb4Tree tree(parts);
-  EXPECT_EQ(tree.check(), std::nullopt);
+  EXPECT_EQ(test::treeFault(tree), std::nullopt);
   (*parts)[7].radius *= 1.5;  // the tree shares the parts, and was built for the old radius
-  EXPECT_NE(tree.check(), std::nullopt);
+  EXPECT_NE(test::treeFault(tree), std::nullopt);
 }
 
 TEST(PartUnions, BoundsAreThoseOfAllParts) {

@@ -74,14 +74,14 @@ TEST(VolumePictures, ShowALevel) {
       }
       EXPECT_EQ(picture.levels, levels);
       EXPECT_TRUE(picture.svg.starts_with("<svg ") && picture.svg.ends_with("</svg>\n"));
-      EXPECT_LT(picture.svg.size(), 110'000u);
+      EXPECT_LT(picture.svg.size(), 200'000u);
       before = picture.volumes;
     }
     // The last level has all leaves; only the nearest fit into the picture.
     const VolumePicture last = volumePicture(mesh, {name, "", ""}, 1'000'000);
     EXPECT_GT(last.volumes, 100u);
     EXPECT_LE(last.drawn, last.volumes);
-    EXPECT_LT(last.svg.size(), 110'000u);
+    EXPECT_LT(last.svg.size(), 200'000u);
   }
 }
 
@@ -94,7 +94,8 @@ TEST(VolumePictures, OfFlatMeshes) {
     for (const TriangleMesh* mesh : {&flat, &point}) {
       const VolumePicture picture = volumePicture(*mesh, {name, "", ""}, 2);
       EXPECT_GE(picture.drawn, 1u) << name;
-      EXPECT_EQ(picture.svg.find("nan"), std::string::npos) << name;
+      // Behind the image, whose base64 may have any letters.
+      EXPECT_EQ(picture.svg.find("nan", picture.svg.find("/>")), std::string::npos) << name;
     }
 }
 

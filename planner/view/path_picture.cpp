@@ -1,17 +1,18 @@
-#include "planner/view/svg_picture.h"
+#include "planner/view/path_picture.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
 
-#include "planner/view/projection.h"
-#include "planner/view/svg_faces.h"
+#include "planner/view/raster.h"
 #include "planner/view/tessellate.h"
 #include "planner/view/tip_frames.h"
 
@@ -19,24 +20,32 @@ namespace corridor {
 namespace {
 
 using view::Camera;
-using view::DepthBuffer;
-using view::Face;
-using view::kShades;
-using view::palette;
+using view::Palette;
+using view::Surface;
 using view::Triangle3;
 
 constexpr double kWidth = 1000, kBorder = 20;  // sizes of the picture, pixels
 /// Limits of the number of copies of the robots that are drawn between start and goal. The more
 /// triangles a copy has, the fewer copies are drawn.
 constexpr int kMostGhosts = 14, kFewestGhosts = 4;
-/// Limits of the length of the SVG text, in bytes: of the bodies that stand still, of one copy of
-/// the robots, and of all copies between start and goal.
-constexpr std::size_t kWorldLimit = 220'000, kRobotLimit = 60'000, kGhostsLimit = 180'000;
+/// The number of triangles of all copies between start and goal, apart from `kFewestGhosts`.
+constexpr std::size_t kGhostTriangles = 160'000;
 /// A moving shape with more than `kFewTriangles` triangles is drawn coarser, on a grid of cells.
 /// The cells are enlarged, up to `kLargestCell`, until one copy of all moving bodies has at most
 /// `kMostTriangles` triangles. Edge lengths of cells are fractions of the scene's diagonal.
-constexpr std::size_t kFewTriangles = 500, kMostTriangles = 5000;
-constexpr double kCell = 1.0 / 250, kLargestCell = 1.0 / 60;
+constexpr std::size_t kFewTriangles = 500, kMostTriangles = 20'000;
+constexpr double kCell = 1.0 / 500, kLargestCell = 1.0 / 60;
+
+const Palette kWorld{{112, 118, 130}, {233, 232, 226}}, kHeld{{74, 96, 132}, {186, 202, 226}},
+    kStart{{22, 110, 50}, {92, 214, 128}}, kGoal{{150, 28, 28}, {246, 108, 92}},
+    kBetween{{150, 96, 20}, {255, 196, 84}};
+/// The layers of a picture (view::Surface::layer) and their opacities. The copies of the robots
+/// between start and goal have one layer each, from `kFirstGhost` on.
+constexpr std::size_t kSolid = 0, kGlass = 1, kHalo = 2, kCurve = 3, kFirstGhost = 4;
+constexpr double kGlassOpacity = 0.2, kHaloOpacity = 0.7, kGhostOpacity = 0.5;
+/// Pixels by which robots are drawn nearer to the viewer than they are, so that one that lies on
+/// the ground is visible.
+constexpr double kNearer = 0.5;
 
 /// Returns the triangles of a body, in the coordinates of its frame. Triangles with the same
 /// corners are returned once: many mesh files have both sides of every face.
@@ -176,25 +185,44 @@ Path poses(const Problem& problem, const Moving& moving, const Path& path, int c
   return chosen;
 }
 
-/// Returns an SVG polyline along the curve on which the origin of a frame moves.
-std::string polyline(const Camera& camera, const Problem& problem, const Path& path,
-                     std::size_t frame) {
+/// Returns points of the curve on which the origin of a frame moves, in picture coordinates.
+std::vector<Vec3> curveOf(const Camera& camera, const Problem& problem, const Path& path,
+                          std::size_t frame) {
   constexpr int parts = 12;
-  std::string points;
+  std::vector<Vec3> points;
   const auto add = [&](const Configuration& q) {
-    const Vec3 p = camera.project(framePoses(problem.model.tree, q)[frame].t);
-    char text[48];
-    std::snprintf(text, sizeof text, "%.1f,%.1f ", p.x(), p.y());
-    points += text;
+    points.push_back(camera.project(framePoses(problem.model.tree, q)[frame].t));
   };
   add(path.front());
   for (std::size_t i = 1; i < path.size(); ++i)
     for (int k = 1; k <= parts; ++k)
       add(problem.model.space.interpolate(path[i - 1], path[i], double(k) / parts));
+  return points;
+}
+
+/// Returns a number with one decimal, in every locale.
+std::string inTenths(double x) {
+  const long tenths = std::lround(10 * x);
+  return (tenths < 0 ? "-" : "") + std::to_string(std::abs(tenths) / 10) + '.' +
+         std::to_string(std::abs(tenths) % 10);
+}
+
+/// Returns the SVG elements of a curve: a blue line with a white halo.
+std::string polyline(const std::vector<Vec3>& curve) {
+  std::string points;
+  for (const Vec3& p : curve) {
+    points += inTenths(p.x()) + ',' + inTenths(p.y()) + ' ';
+  }
   return "<polyline points=\"" + points +
          "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\" opacity=\".7\"/>\n" +
          "<polyline points=\"" + points +
          "\" fill=\"none\" stroke=\"#1f4e9e\" stroke-width=\"2\"/>\n";
+}
+
+/// Returns a number with four significant digits, in every locale.
+std::string fourDigits(double x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 4).ptr};
 }
 
 /// Returns an SVG text that states the duration, in the lower left corner of the picture.
@@ -202,8 +230,8 @@ std::string caption(const Camera& camera, double seconds) {
   char text[160];
   std::snprintf(text, sizeof text,
                 "<text x=\"%.0f\" y=\"%.0f\" font-family=\"sans-serif\" font-size=\"20\" "
-                "fill=\"#1f2730\">duration %.4g s</text>\n",
-                kBorder, camera.height() - kBorder, seconds);
+                "fill=\"#1f2730\">duration %s s</text>\n",
+                kBorder, camera.height() - kBorder, fourDigits(seconds).c_str());
   return text;
 }
 
@@ -214,22 +242,85 @@ bool isSeenFromAbove(const Problem& problem) {
          problem.model.space.groups()[0].kind == CoordinateGroup::Kind::planar;
 }
 
-}  // namespace
+/// A picture of a path before it is drawn.
+struct Drawing {
+  Camera camera;
+  std::vector<Surface> surfaces = {};
+  std::vector<double> opacities = {};          ///< of the layers
+  std::vector<std::vector<Vec3>> curves = {};  ///< in picture coordinates
+};
 
-std::string svgPicture(const Problem& problem, const Path& path,
-                       const std::optional<ViewDirection>& from,
-                       const std::optional<double>& seconds) {
+/// For each sample of the picture, the depth of the nearest robot.
+struct RobotDepths {
+  explicit RobotDepths(const Camera& camera)
+      : grid{static_cast<int>(camera.width() * kScale) + 1, 0,
+             static_cast<int>(camera.height() * kScale) + 1},
+        depths(grid.size(), -std::numeric_limits<double>::infinity()) {}
+
+  template <class Visit>
+  void cover(const Surface& surface, const Visit& visit) const {
+    view::Corners corners = surface.corners;
+    for (Vec3& corner : corners) corner.head<2>() *= kScale;
+    grid.cover(corners, visit);
+  }
+  void add(const Surface& robot) {
+    cover(robot, [&](std::size_t i, double depth) { depths[i] = std::max(depths[i], depth); });
+  }
+  /// Returns the number of samples in which a surface hides a robot.
+  int hiddenBy(const Surface& surface) const {
+    int count = 0;
+    cover(surface, [&](std::size_t i, double depth) {
+      count += std::isfinite(depths[i]) && depth > depths[i] + 1;
+    });
+    return count;
+  }
+
+  static constexpr double kScale = 0.5;  // samples along one pixel
+  view::PixelGrid grid;
+  std::vector<double> depths;
+};
+
+/// Adds the bodies that stand still. All triangles of a plane that hides robots are drawn like
+/// glass.
+/// @param above the height above which the picture of a plan is dark, metres; unset: no plan.
+void addStanding(const Problem& problem, const Standing& standing, const RobotDepths& robots,
+                 const std::optional<double>& above, Drawing& drawing) {
+  std::vector<Surface> surfaces;
+  std::map<PlaneKey, int> hides;  // for each plane, the samples in which it hides a robot
+  const auto planeOfTriangle = [&](std::size_t i) {
+    return planeOf(standing.bodies[i], standing.triangles[i], drawing.camera.worldPixel());
+  };
+  for (std::size_t i = 0; i < standing.triangles.size(); ++i) {
+    const Triangle3& triangle = standing.triangles[i];
+    const bool isHeld = problem.model.bodies[standing.bodies[i]].robot.has_value();
+    Surface surface = makeSurface(drawing.camera, triangle, isHeld ? kHeld : kWorld);
+    // Seen from above, the sides of walls are not visible, so walls look like the ground. Therefore
+    // every triangle that reaches above the robot's lowest point is drawn dark.
+    if (above)
+      surface.colour = std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > *above
+                           ? kWorld.dark
+                           : kWorld.light;
+    hides[planeOfTriangle(i)] += robots.hiddenBy(surface);
+    surfaces.push_back(surface);
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (hides[planeOfTriangle(i)] > 3) surfaces[i].layer = kGlass;
+    drawing.surfaces.push_back(surfaces[i]);
+  }
+}
+
+Drawing drawingOf(const Problem& problem, const Path& path,
+                  const std::optional<ViewDirection>& from) {
   constexpr double degree = std::numbers::pi / 180;
   const bool plan = !from && isSeenFromAbove(problem);
   const auto [azimuth, elevation] = from.value_or(plan ? ViewDirection{-90 * degree, 90 * degree}
                                                        : ViewDirection{-60 * degree, 38 * degree});
-  Camera camera(azimuth, elevation);
+  Drawing drawing{Camera(azimuth, elevation)};
   const double size = sceneSize(problem, path.front());
-  const auto [world, worldBodies] = standingBodies(problem, size, path.front());
+  const Standing standing = standingBodies(problem, size, path.front());
   const Moving robot = movingBodies(problem, size);
-  // About half of a robot's triangles are visible, at about 28 bytes each: 14 bytes per triangle.
   const int ghostCount =
-      static_cast<int>(std::clamp(kGhostsLimit / (14 * robot.triangles.size() + 1),
+      static_cast<int>(std::clamp(kGhostTriangles / (robot.triangles.size() + 1),
                                   std::size_t{kFewestGhosts}, std::size_t{kMostGhosts}));
   std::vector<std::vector<Triangle3>> placed;
   std::vector<Vec3> points;
@@ -240,63 +331,56 @@ std::string svgPicture(const Problem& problem, const Path& path,
         points.push_back(p);
         feet = std::min(feet, p.z());
       }
-  for (const auto& triangle : world) points.insert(points.end(), triangle.begin(), triangle.end());
-  camera.fit(points, kWidth, kBorder);
+  for (const Triangle3& triangle : standing.triangles)
+    points.insert(points.end(), triangle.begin(), triangle.end());
+  drawing.camera.fit(points, kWidth, kBorder);
 
-  DepthBuffer robots(camera.width(), camera.height(), 0.5);
-  std::vector<std::vector<Face>> ghosts;
-  for (const auto& copy : placed) {
-    auto& faces = ghosts.emplace_back();
-    const char palette = ghosts.size() == 1 ? 's' : ghosts.size() == placed.size() ? 'g' : 'r';
-    for (const auto& triangle : copy) faces.push_back(makeFace(camera, triangle, palette));
-    for (const Face& face : faces) robots.draw(face.corners, 0);
+  drawing.opacities = {1, kGlassOpacity, kHaloOpacity, 1};
+  RobotDepths robots(drawing.camera);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    const bool isStart = k == 0, isGoal = k > 0 && k + 1 == placed.size();
+    if (!isStart && !isGoal) drawing.opacities.push_back(kGhostOpacity);
+    const std::size_t layer = isStart || isGoal ? kSolid : kFirstGhost + k - 1;
+    for (const Triangle3& triangle : placed[k]) {
+      Surface surface = makeSurface(drawing.camera, triangle,
+                                    isStart  ? kStart
+                                    : isGoal ? kGoal
+                                             : kBetween,
+                                    layer);
+      robots.add(surface);
+      for (Vec3& corner : surface.corners) corner.z() += kNearer;
+      drawing.surfaces.push_back(surface);
+    }
   }
-  std::vector<Face> faces;
-  // For each plane, the number of pixels of robots that it hides. All triangles of a wall are drawn
-  // alike: transparent or solid.
-  std::map<PlaneKey, int> hides;
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    const Triangle3& triangle = world[i];
-    faces.push_back(
-        makeFace(camera, triangle, problem.model.bodies[worldBodies[i]].robot ? 'f' : 'w'));
-    // Seen from above, the sides of walls are not visible, so walls look like the ground. Therefore
-    // every triangle that reaches above the robot's lowest point is drawn dark.
-    if (plan)
-      faces.back().shade =
-          std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()}) > feet ? 1 : kShades - 1;
-    int& count = hides[planeOf(worldBodies[i], triangle, camera.worldPixel())];
-    robots.cover(faces.back().corners, [&](std::size_t pixel, double depth) {
-      count += std::isfinite(robots.depth(pixel)) && depth > robots.depth(pixel) + 1;
-    });
-  }
-  std::vector<Face> solid, glass;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (hides[planeOf(worldBodies[i], world[i], camera.worldPixel())] > 3)
-      glass.push_back(faces[i]);
-    else
-      cut(faces[i], solid);
-  }
-
-  char head[256];
-  std::snprintf(head, sizeof head,
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
-                "stroke-width=\".8\" stroke-linejoin=\"round\">\n",
-                camera.width(), camera.height());
-  std::string svg =
-      std::string(head) + "<style>\n" + palette('w', {112, 118, 130}, {233, 232, 226}) +
-      palette('f', {74, 96, 132}, {186, 202, 226}) + palette('r', {150, 96, 20}, {255, 196, 84}) +
-      palette('s', {22, 110, 50}, {92, 214, 128}) + palette('g', {150, 28, 28}, {246, 108, 92}) +
-      "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n";
-  svg += drawVisible(camera, solid, kWorldLimit);
-  for (std::size_t i = 1; i + 1 < ghosts.size(); ++i)
-    svg += "<g opacity=\".5\">\n" + drawVisible(camera, ghosts[i], kRobotLimit) + "</g>\n";
-  if (ghosts.size() > 1) svg += drawVisible(camera, ghosts.back(), kRobotLimit);
-  svg += drawVisible(camera, ghosts.front(), kRobotLimit);
-  svg += "<g opacity=\".2\">\n" + drawVisible(camera, glass, kWorldLimit / 4) + "</g>\n";
+  addStanding(problem, standing, robots, plan ? std::optional(feet) : std::nullopt, drawing);
   for (const std::size_t frame : view::tipFrames(problem.model))
-    svg += polyline(camera, problem, path, frame);
-  if (seconds) svg += caption(camera, *seconds);
+    drawing.curves.push_back(curveOf(drawing.camera, problem, path, frame));
+  return drawing;
+}
+
+}  // namespace
+
+std::string svgPicture(const Problem& problem, const Path& path,
+                       const std::optional<ViewDirection>& from,
+                       const std::optional<double>& seconds) {
+  const Drawing drawing = drawingOf(problem, path, from);
+  std::string svg = svgHead(drawing.camera, drawing.surfaces, drawing.opacities);
+  for (const std::vector<Vec3>& curve : drawing.curves) svg += polyline(curve);
+  if (seconds) svg += caption(drawing.camera, *seconds);
   return svg + "</svg>\n";
+}
+
+std::string pngPicture(const Problem& problem, const Path& path,
+                       const std::optional<ViewDirection>& from, int longest) {
+  Drawing drawing = drawingOf(problem, path, from);
+  double nearest = 0;  // the depth of the nearest surface
+  for (const Surface& surface : drawing.surfaces)
+    for (const Vec3& corner : surface.corners) nearest = std::max(nearest, corner.z());
+  for (const std::vector<Vec3>& curve : drawing.curves) {
+    view::addLine(drawing.surfaces, curve, 5, nearest + 1, {255, 255, 255}, kHalo);
+    view::addLine(drawing.surfaces, curve, 2, nearest + 2, {31, 78, 158}, kCurve);
+  }
+  return pngOf(render(drawing.camera, drawing.surfaces, drawing.opacities, longest));
 }
 
 }  // namespace corridor

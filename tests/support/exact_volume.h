@@ -12,13 +12,13 @@
 #include "collision/volumes/obb.h"
 #include "collision/volumes/rss.h"
 
-/// Volumes as sets with rational coordinates. `check()` of the trees proves containment with them.
+/// Volumes as sets with rational coordinates. `treeFault` proves containment with them.
 namespace corridor::exact {
 
 using Rational = boost::multiprecision::cpp_rational;
 
 /// Returns `what` and the number i, for example "node 3". The function is for the messages of
-/// `check()` of trees.
+/// `treeFault`.
 inline std::string named(const char* what, std::size_t i) {
   return std::string(what) + " " + std::to_string(i);
 }

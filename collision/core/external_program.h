@@ -21,21 +21,22 @@ struct ProgramCall {
 };
 
 /// How a program ended. If `why` is `timedOut` or `interrupted`, the program was killed. If it is
-/// `tooMuchOutput`, the program was killed or had already ended. In every case, the processes that
-/// remained in the program's process group were killed.
+/// `tooMuchOutput`, the program was killed or had already ended. `statusLost`: the program has
+/// ended, but this process ignores SIGCHLD, so nobody knows whether it succeeded. In every case,
+/// the processes that remained in the program's process group were killed.
 struct ProgramEnd {
-  enum class Why { exited, timedOut, interrupted, tooMuchOutput };
+  enum class Why { exited, timedOut, interrupted, tooMuchOutput, statusLost };
   Why why = Why::exited;
   int exitStatus = -1;   ///< −1: the program was killed, or ended by a signal
+  int signal = 0;        ///< the signal that ended the program by itself; 0: none
   std::string out, err;  ///< standard output and error; empty for `tooMuchOutput`
 };
 
 /// Runs a program until it ends, or kills it when a limit of `call` is exceeded or `interrupted`
 /// becomes true. The program's standard input is empty. The program runs in a process group of its
-/// own, and is killed when the calling thread ends.
-/// @throws std::system_error if no process, or no memory file for its output, can be created, or if
-/// the status of the process is lost. If a process was created but can't run the program, the exit
-/// status is 127.
+/// own, and is killed when the calling thread ends. Several threads may call this function.
+/// @throws std::system_error if no process, or no memory file for its output, can be created. If a
+/// process was created but can't run the program, the exit status is 127.
 ProgramEnd runProgram(const ProgramCall& call);
 
 /// Searches PATH for a program, and returns its absolute path. Returns an empty path if PATH has no

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "collision/convex/quickhull.h"
-#include "collision/hierarchy/exact_volume.h"
 #include "collision/predicates/orientation.h"
 #include "collision/volumes/hull.h"
+#include "tests/support/exact_volume.h"
 
 namespace corridor::exact {
 

@@ -1,14 +1,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "collision/hierarchy/exact_hull.h"
-#include "collision/hierarchy/exact_round_volumes.h"
-#include "collision/hierarchy/exact_volume.h"
 #include "collision/hierarchy/volume_tree.h"
 #include "collision/volumes/pair_tests.h"
 #include "collision/volumes/part_obb.h"
+#include "tests/support/exact_hull.h"
+#include "tests/support/exact_round_volumes.h"
+#include "tests/support/exact_volume.h"
+#include "tests/support/tree_fault.h"
 
-namespace corridor {
+namespace corridor::test {
 namespace {
 
 using exact::ExactVolume;
@@ -57,48 +58,51 @@ bool containsTriangle(const ExactVolume<Volume>& volume, const Triangle& triangl
 }  // namespace
 
 template <BoundingVolume Volume>
-std::optional<std::string> VolumeTree<Volume>::check() const {
-  const std::uint32_t n = items_.size();
-  const char* item = items_.parts.empty() ? "triangle" : "part";
+std::optional<std::string> treeFault(const VolumeTree<Volume>& tree) {
+  const auto n =
+      static_cast<std::uint32_t>(tree.hasParts() ? tree.parts().size() : tree.triangles().size());
+  const char* item = tree.hasParts() ? "part" : "triangle";
   std::vector<int> seen(n, 0), ids(n, 0);
-  if (nodes_[0].first != 0 || nodes_[0].count != n) return "the root does not hold all primitives";
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    const Node& node = nodes_[i];
+  if (tree.nodes()[0].first != 0 || tree.nodes()[0].count != n)
+    return "the root does not hold all primitives";
+  for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
+    const auto& node = tree.nodes()[i];
     const ExactVolume<Volume> volume(node.box);
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
       bool inside = true;
-      if (hasParts()) {
-        inside = containsPart(volume, part(t));
+      if (tree.hasParts()) {
+        inside = containsPart(volume, tree.part(t));
       } else {
-        inside = containsTriangle(volume, items_.triangles[t]);
+        inside = containsTriangle(volume, tree.triangle(t));
       }
       if (!inside)
-        return named("the volume of node", i) + " does not contain " + named(item, meshTriangle(t));
+        return named("the volume of node", i) + " does not contain " +
+               named(item, tree.meshTriangle(t));
     }
-    if (node.box.axisDefect() > bounds_.axisDefect)
+    if (node.box.axisDefect() > tree.axisDefect())
       return named("the axes of node", i) + " have a larger defect than axisDefect";
     if (node.isLeaf()) {
       for (std::uint32_t t = node.first; t < node.first + node.count; ++t) ++seen[t];
       continue;
     }
-    if (i + 1 >= nodes_.size() || node.right >= nodes_.size())
+    if (i + 1 >= tree.nodes().size() || node.right >= tree.nodes().size())
       return named("node", i) + " has a child that does not exist";
-    const Node &left = nodes_[i + 1], &right = nodes_[node.right];
+    const auto &left = tree.nodes()[i + 1], &right = tree.nodes()[node.right];
     if (left.count == 0 || right.count == 0 || left.first != node.first ||
         right.first != node.first + left.count || left.count + right.count != node.count)
       return named("node", i) + " is not partitioned by its children";
   }
   for (std::uint32_t t = 0; t < n; ++t) {
-    if (seen[t] != 1) return named(item, meshTriangle(t)) + " is not in exactly one leaf";
-    if (meshTriangle(t) >= n || ids[meshTriangle(t)]++)
+    if (seen[t] != 1) return named(item, tree.meshTriangle(t)) + " is not in exactly one leaf";
+    if (tree.meshTriangle(t) >= n || ids[tree.meshTriangle(t)]++)
       return "the numbers of the primitives are not a permutation";
   }
   return std::nullopt;
 }
 
 #define CORRIDOR_CHECK(Volume) \
-  template std::optional<std::string> VolumeTree<Volume>::check() const;
+  template std::optional<std::string> treeFault(const VolumeTree<Volume>&);
 CORRIDOR_EACH_VOLUME(CORRIDOR_CHECK)
 #undef CORRIDOR_CHECK
 
-}  // namespace corridor
+}  // namespace corridor::test

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "collision/hierarchy/exact_volume.h"
-#include "collision/hierarchy/obb4_tree.h"
 #include "collision/volumes/part_obb.h"
+#include "tests/support/exact_volume.h"
+#include "tests/support/tree_fault.h"
 
-namespace corridor {
+namespace corridor::test {
 namespace {
 
 Obb inDouble(const Obb1& floats) {
@@ -63,61 +63,62 @@ bool contains(const Volume& volume, const ConvexPart& part, const Own& own,
 
 }  // namespace
 
-std::optional<std::string> Obb4Tree::check() const {
+std::optional<std::string> treeFault(const Obb4Tree& tree) {
   using exact::Rational;
   using exact::Row;
-  const Rational unit(length_);
-  const Row origin = exact::row(origin_);
+  const Rational unit(tree.length());
+  const Row origin = exact::row(tree.origin());
   const auto own = [&](Row p) {
     p = exact::minus(p, origin);
     for (Rational& x : p) x /= unit;
     return p;
   };
-  const std::size_t count = meshTriangle_.size();
-  const char* const kind = hasParts() ? "part" : "triangle";
+  const std::size_t count = tree.itemCount();
+  const char* const kind = tree.hasParts() ? "part" : "triangle";
   // Each item is a node, with the volumes of all boxes above it.
-  std::vector<int> visited(nodes_.size(), 0), seen(count, 0);
+  std::vector<int> visited(tree.nodes().size(), 0), seen(count, 0);
   struct Item {
     std::uint32_t node;
     std::vector<Volume> above;
   };
-  if (auto complaint = complaintOf(inDouble(root_))) return *complaint + " (root box)";
+  if (auto complaint = complaintOf(inDouble(tree.root()))) return *complaint + " (root box)";
   std::vector<Item> stack;
-  stack.push_back({0, {Volume(inDouble(root_))}});
+  stack.push_back({0, {Volume(inDouble(tree.root()))}});
   while (!stack.empty()) {
     const Item item = std::move(stack.back());
     stack.pop_back();
-    if (item.node >= nodes_.size() || visited[item.node]++)
+    if (item.node >= tree.nodes().size() || visited[item.node]++)
       return named("node", item.node) + " is not the child of exactly one box";
-    const Node& node = nodes_[item.node];
-    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+    const Obb4Tree::Node& node = tree.nodes()[item.node];
+    for (std::uint32_t lane = 0; lane < Obb4Tree::kWidth; ++lane) {
       const std::uint32_t child = node.child[lane];
-      if (child == kNone) continue;
+      if (child == Obb4Tree::kNone) continue;
       const Obb box = inDouble(boxOf(node, lane));
       if (auto complaint = complaintOf(box)) return *complaint + named(" in node", item.node);
       std::vector<Volume> boxes = item.above;
       boxes.emplace_back(box);
-      if (!isLeaf(child)) {
+      if (!Obb4Tree::isLeaf(child)) {
         stack.push_back({child, std::move(boxes)});
         continue;
       }
-      for (std::uint32_t t = leafFirst(child); t < leafFirst(child) + leafCount(child); ++t) {
+      for (std::uint32_t t = Obb4Tree::leafFirst(child);
+           t < Obb4Tree::leafFirst(child) + Obb4Tree::leafCount(child); ++t) {
         if (t >= count || seen[t]++)
           return named(kind, t) + " (leaf order) is not in exactly one leaf";
         for (const auto& around : boxes)
-          if (!(hasParts() ? contains(around, part(t), own, unit)
-                           : contains(around, triangle(t), own)))
-            return "a box above does not contain " + named(kind, meshTriangle_[t]);
+          if (!(tree.hasParts() ? contains(around, tree.part(t), own, unit)
+                                : contains(around, tree.triangle(t), own)))
+            return "a box above does not contain " + named(kind, tree.meshTriangle(t));
       }
     }
   }
   std::vector<int> ids(count, 0);
-  for (std::size_t t = 0; t < count; ++t)
-    if (!seen[t] || meshTriangle_[t] >= ids.size() || ids[meshTriangle_[t]]++)
+  for (std::uint32_t t = 0; t < count; ++t)
+    if (!seen[t] || tree.meshTriangle(t) >= ids.size() || ids[tree.meshTriangle(t)]++)
       return named(kind, t) + " (leaf order) is in no leaf, or has the number of another";
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  for (std::size_t i = 0; i < tree.nodes().size(); ++i)
     if (!visited[i]) return named("node", i) + " is the child of no box";
   return std::nullopt;
 }
 
-}  // namespace corridor
+}  // namespace corridor::test

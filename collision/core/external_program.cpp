@@ -1,17 +1,18 @@
-#include "planner/robot/run_program.h"
+#include "collision/core/external_program.h"
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <poll.h>
 #include <sstream>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
-#include <thread>
 #include <unistd.h>
 
 namespace corridor {
@@ -21,8 +22,15 @@ namespace {
 /// outputs can be read one after the other when the program has ended.
 class Output {
  public:
-  Output() : file_(::memfd_create("output", MFD_CLOEXEC)) {
-    if (file_ < 0) throw std::system_error(errno, std::generic_category());
+  Output() {
+    const int file = ::memfd_create("output", MFD_CLOEXEC);
+    if (file < 0) throw std::system_error(errno, std::generic_category());
+    // If the caller's standard streams are closed, `file` may have the number of one of them. The
+    // child needs these numbers.
+    file_ = ::fcntl(file, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    const int error = errno;
+    ::close(file);
+    if (file_ < 0) throw std::system_error(error, std::generic_category());
   }
   ~Output() { ::close(file_); }
   Output(const Output&) = delete;
@@ -48,7 +56,7 @@ class Output {
   }
 
  private:
-  int file_;
+  int file_ = -1;
 };
 
 /// Returns pointers to the words, and a null pointer at the end. The pointers are valid as long as
@@ -59,6 +67,26 @@ std::vector<char*> pointersTo(const std::vector<std::string>& words) {
   pointers.push_back(nullptr);
   return pointers;
 }
+
+/// Waits for the end of a process, up to 10 ms at a time. Without the kernel's help (before Linux
+/// 5.3), each wait takes the 10 ms.
+class EndOfProcess {
+ public:
+  explicit EndOfProcess(pid_t process)
+      : file_(static_cast<int>(::syscall(SYS_pidfd_open, process, 0))) {}
+  ~EndOfProcess() {
+    if (file_ >= 0) ::close(file_);
+  }
+  EndOfProcess(const EndOfProcess&) = delete;
+  EndOfProcess& operator=(const EndOfProcess&) = delete;
+  void wait() const {
+    pollfd end{file_, POLLIN, 0};  // poll ignores a negative file
+    ::poll(&end, 1, 10);
+  }
+
+ private:
+  int file_;
+};
 
 }  // namespace
 
@@ -86,27 +114,29 @@ ProgramEnd runProgram(const ProgramCall& call) {
   ::setpgid(child, child);  // the child calls it, too, because either process may run first
   const auto latest =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(call.seconds);
+  const EndOfProcess endOfChild(child);
   ProgramEnd end;
   int status = 0;
   bool ended = false;
   while (!ended && end.why == ProgramEnd::Why::exited) {
     const pid_t found = ::waitpid(child, &status, WNOHANG);
     if (found < 0 && errno == EINTR) continue;
-    // If SIGCHLD is ignored, the status of a child is lost, and its success is unknown.
-    if (found < 0) throw std::system_error(errno, std::generic_category(), call.words[0]);
+    if (found < 0) end.why = ProgramEnd::Why::statusLost;
     ended = found != 0;
     if (ended) break;
     if (call.interrupted && *call.interrupted) end.why = ProgramEnd::Why::interrupted;
     if (std::chrono::steady_clock::now() > latest) end.why = ProgramEnd::Why::timedOut;
     if (out.size() > call.bytes || err.size() > call.bytes)
       end.why = ProgramEnd::Why::tooMuchOutput;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    endOfChild.wait();
   }
   ::kill(-child, SIGKILL);  // the whole group: the program, and children that it has left behind
   if (!ended)
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
     }
-  if (ended && WIFEXITED(status)) end.exitStatus = WEXITSTATUS(status);
+  const bool known = ended && end.why != ProgramEnd::Why::statusLost;
+  if (known && WIFEXITED(status)) end.exitStatus = WEXITSTATUS(status);
+  if (known && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   if (out.size() > call.bytes || err.size() > call.bytes) {
     end.why = ProgramEnd::Why::tooMuchOutput;
     return end;

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "collision/hierarchy/exact_volume.h"
 #include "collision/volumes/ellipsoid.h"
 #include "collision/volumes/shell.h"
+#include "tests/support/exact_volume.h"
 
 namespace corridor::exact {
 
