@@ -43,9 +43,10 @@ const Palette kWorld{{112, 118, 130}, {233, 232, 226}}, kHeld{{74, 96, 132}, {18
 /// between start and goal have one layer each, from `kFirstGhost` on.
 constexpr std::size_t kSolid = 0, kGlass = 1, kHalo = 2, kCurve = 3, kFirstGhost = 4;
 constexpr double kGlassOpacity = 0.2, kHaloOpacity = 0.7, kGhostOpacity = 0.5;
-/// Pixels by which robots are drawn nearer to the viewer than they are, so that one that lies on
-/// the ground is visible.
-constexpr double kNearer = 0.5;
+/// Pixels by which robots are drawn nearer to the viewer than they are. So one that lies on the
+/// ground is visible, and where links of several copies coincide, as shoulders do, the start is
+/// seen. The surfaces of such links differ by up to a cell (`kCell`), because they are polyhedra.
+constexpr double kNearer = 0.5, kGoalNearer = 2.5, kStartNearer = 4.5;
 
 /// Returns the triangles of a body, in the coordinates of its frame. Triangles with the same
 /// corners are returned once: many mesh files have both sides of every face.
@@ -340,6 +341,7 @@ Drawing drawingOf(const Problem& problem, const Path& path,
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const bool isStart = k == 0, isGoal = k > 0 && k + 1 == placed.size();
     if (!isStart && !isGoal) drawing.opacities.push_back(kGhostOpacity);
+    const double nearer = isStart ? kStartNearer : isGoal ? kGoalNearer : kNearer;
     const std::size_t layer = isStart || isGoal ? kSolid : kFirstGhost + k - 1;
     for (const Triangle3& triangle : placed[k]) {
       Surface surface = makeSurface(drawing.camera, triangle,
@@ -348,7 +350,7 @@ Drawing drawingOf(const Problem& problem, const Path& path,
                                              : kBetween,
                                     layer);
       robots.add(surface);
-      for (Vec3& corner : surface.corners) corner.z() += kNearer;
+      for (Vec3& corner : surface.corners) corner.z() += nearer;
       drawing.surfaces.push_back(surface);
     }
   }
