@@ -273,10 +273,11 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     for (const std::string& text : mesh->notes)
       shape.notes.push_back({text + ": " + shape.file.string(), NoteWeight::coverage});
     if (!hull && mesh->floatVertices)  // a format that assimp reads
-      shape.notes.push_back({"the hull is that of the corners of faces, because vertices without a "
-                             "face are not read in this format: " +
-                                 shape.file.string(),
-                             NoteWeight::coverage});
+      shape.notes.push_back(
+          {"the hull is that of the corners of faces, because vertices without a "
+           "face are not read in this format: " +
+               shape.file.string(),
+           NoteWeight::coverage});
   }
   if (inRange) return shape;
   faultRange(map);

@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_hull.h"
-#include "tests/support/exact_round_volumes.h"
 #include "collision/volumes/direction_search.h"
 #include "collision/volumes/pair_tests.h"
+#include "tests/support/exact_hull.h"
+#include "tests/support/exact_round_volumes.h"
 #include "tests/support/rational_program.h"
 #include "tests/support/soups.h"
 #include "tests/support/support.h"

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_volume.h"
 #include "collision/volumes/overlap_obb_obb_variants.h"
+#include "tests/support/exact_volume.h"
 #include "tests/support/support.h"
 
 namespace corridor {
