@@ -145,7 +145,7 @@ struct Robot {
 
 TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
   Random random(test::testSeed(20));
-  const int edges = test::isStressRun() ? 5000 : 500;  // per scene
+  const int edges = test::casesOf(40, 5'000);  // per scene
   int undecided = 0, all = 0;
   for (const Case& c : cases(random)) {
     const Robot robot(c);
@@ -188,10 +188,10 @@ TEST(Stress, CertifiedEdgesAgainstTheVerifier) {
               << count[2] << "; verifier undecided " << silent << "\n";
     EXPECT_GT(count[0], edges / 50) << c.name << ": too few free edges for a meaningful test";
     EXPECT_GT(count[1], edges / 50) << c.name << ": too few contacts for a meaningful test";
-    EXPECT_LE(silent, edges / 100) << c.name << ": the oracle says nothing";
+    EXPECT_LE(silent, 1 + edges / 100) << c.name << ": the oracle says nothing";
     undecided += count[2];
   }
-  EXPECT_LE(undecided, all / 1000) << "more than 0.1 % undecided";
+  EXPECT_LE(undecided, 1 + all / 1000) << "more than 0.1 % undecided";
 }
 
 // ---- boxes ----
@@ -242,7 +242,7 @@ bool boxesTouch(const ExactBox& a, const ExactBox& b) {
 
 TEST(Stress, BoxOverlapAgainstRationals) {
   Random random(test::testSeed(21));
-  const int rounds = test::isStressRun() ? 50'000 : 5'000;
+  const int rounds = test::casesOf(300, 50'000);
   int touching = 0, apart = 0, proved = 0, clear = 0;
   for (int i = 0; i < rounds; ++i) {
     Obb a, b;

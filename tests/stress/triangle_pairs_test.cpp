@@ -1,7 +1,7 @@
 // Compares the contact test with rationals, on pairs of triangles for which contact is hard to
 // decide (tests/support/triangle_families.h). Swapping, rotating and scaling a pair must not change
-// the verdict, and enlarging a triangle must keep a contact; this is tested, too. There are 10^5
-// pairs, or 10^7 with CORRIDOR_STRESS.
+// the verdict, and enlarging a triangle must keep a contact; this is tested, too. There are
+// 50,000 pairs, or 10^7 with CORRIDOR_STRESS.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -177,8 +177,8 @@ TEST_P(Pairs, AgainstRationals) {
   const test::PairFamily& family = GetParam();
   Random random(test::testSeed(81));
   const auto placings = test::pairPlacings();
-  const int cases = (test::isStressRun() ? 10'000'000 : 100'000) / test::kSlowdown /
-                    static_cast<int>(test::pairFamilies().size());
+  const int cases =
+      test::casesOf(50'000, 10'000'000) / static_cast<int>(test::pairFamilies().size());
   std::vector<int> touching(placings.size()), all(placings.size());
   for (int n = 0; n < cases; ++n) {
     Triangle a, b;

@@ -35,6 +35,10 @@ bool isStressRun() {
   return std::getenv("CORRIDOR_STRESS") != nullptr;
 }
 
+int casesOf(int normally, int stress) {
+  return isStressRun() ? stress : normally;
+}
+
 std::filesystem::path newFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "corridor_test_XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);

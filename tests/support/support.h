@@ -20,6 +20,10 @@ std::optional<std::filesystem::path> omplAppFolder();
 /// CORRIDOR_STRESS).
 bool isStressRun();
 
+/// Returns the number of cases of a random test: `stress` in a stress run, else `normally`, which
+/// should take at most half a second in a release build.
+int casesOf(int normally, int stress);
+
 /// The factor by which this build is slower than a release build, roughly. Tests multiply time
 /// limits by it, and divide large numbers of cases by it.
 #ifndef __has_feature  // clang has it; g++ 12 defines __SANITIZE_ADDRESS__ instead

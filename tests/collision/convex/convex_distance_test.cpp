@@ -84,12 +84,13 @@ double checked(const PosedPart& a, const PosedPart& b, const std::string& what) 
 TEST(ConvexDistance, KnownGaps) {
   Touching make(test::testSeed(31));
   std::cout << std::setprecision(2);
+  const int count = test::casesOf(240, 400);  // per pair of shapes
   for (const Shape sa : test::kShapes)
     for (const Shape sb : test::kShapes) {
       if (sb < sa) continue;
       double worst = 0;
       int apart = 0;
-      for (int n = 0; n < 400 / test::kSlowdown; ++n) {
+      for (int n = 0; n < count; ++n) {
         const ShapeFeature fa = make.feature(sa), fb = make.feature(sb);
         const Vec3 normal = n % 5 == 0 ? Vec3(Vec3::Unit(n / 5 % 3)) : make.vector().normalized();
         const Vec3 x = make.vector() * (n % 4 == 0 ? 1e3 : 1);
@@ -119,7 +120,7 @@ TEST(ConvexDistance, KnownGaps) {
       }
       std::cout << kNames[int(sa)] << " " << kNames[int(sb)] << ": worst error " << worst
                 << " of what is allowed, " << apart << " apart\n";
-      EXPECT_GT(apart, 300 / test::kSlowdown);
+      EXPECT_GT(apart, count * 3 / 4);
     }
 }
 
@@ -129,7 +130,8 @@ TEST(ConvexDistance, KnownGaps) {
 TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
   Touching make(test::testSeed(32));
   int apart = 0, touching = 0;
-  for (int n = 0; n < 12'000 / test::kSlowdown; ++n) {
+  const int count = test::casesOf(6'000, 12'000);
+  for (int n = 0; n < count; ++n) {
     const Shape sa = test::kShapes[n % 6], sb = test::kShapes[n / 6 % 6];
     const auto pose = [&] {
       Transform X;
@@ -162,8 +164,8 @@ TEST(ConvexDistance, RandomPosesAgainstASeparatingPlane) {
     const double moved = convexDistance(a2.set(), b2.set()).distance;
     EXPECT_LE(std::abs(moved - d), 8 * allowedAt(d, sizeOf(a2, b2))) << what;
   }
-  EXPECT_GT(apart, 3'000 / test::kSlowdown);
-  EXPECT_GT(touching, 500 / test::kSlowdown);
+  EXPECT_GT(apart, count / 4);
+  EXPECT_GT(touching, count / 24);
 }
 
 /// Compares distances of polytopes with brute force: all triangles that three corners of a form

@@ -38,7 +38,7 @@ TEST(DobkinKirkpatrick, HierarchiesPassTheCheck) {
 
 TEST(DobkinKirkpatrick, ExtremeVerticesAreExact) {
   RandomPoints random(test::testSeed(22));
-  const int sets = test::isStressRun() ? 1000 : 60 / test::kSlowdown + 6;
+  const int sets = test::casesOf(45, 1'000);
   std::size_t queries = 0, climbed = 0;
   for (int n = 0; n < sets; ++n) {
     std::vector<Vec3> points =

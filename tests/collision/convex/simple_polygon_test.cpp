@@ -81,7 +81,7 @@ void expectTiling(const PolygonPoints& points, const std::string& name) {
 
 TEST(SimplePolygon, AgreesWithRationals) {
   test::Polygons random(test::testSeed(51));
-  const int count = test::isStressRun() ? 20'000 : 400 / test::kSlowdown;
+  const int count = test::casesOf(120, 20'000);
   int simple = 0, pieces = 0;
   for (int n = 0; n < count; ++n) {
     const PolygonPoints p = random.varied(

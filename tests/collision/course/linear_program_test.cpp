@@ -119,7 +119,7 @@ void compare(int count, std::uint64_t seed) {
 }
 
 int cases() {
-  return test::isStressRun() ? 100'000 : 5000 / test::kSlowdown;
+  return test::casesOf(3'000, 100'000);
 }
 
 TEST(LinearProgram, AgreesWithRationalSimplexInSpace) {

@@ -92,7 +92,7 @@ TEST(ConvexPolygon, ExtremeVertices) {
 /// Compares answers with the rational simplex method, and tests the witness of each answer.
 TEST(PolygonIntersection, AgreesWithRationalSimplex) {
   RandomPolygons random(test::testSeed(43));
-  const int pairs = test::isStressRun() ? 100'000 : 1500 / test::kSlowdown;
+  const int pairs = test::casesOf(280, 100'000);
   int meeting = 0, exact = 0;
   for (int n = 0; n < pairs; ++n) {
     const auto p = random.polygon(3 + random.below(20), n % 4, {0, 0});
@@ -150,7 +150,7 @@ bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPrun
 /// remaining part of Q if and only if P meets Q. Each step removes half of a chain.
 TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
   RandomPolygons random(test::testSeed(44));
-  const int pairs = test::isStressRun() ? 3000 : 200 / test::kSlowdown;
+  const int pairs = test::casesOf(50, 3'000);
   std::size_t steps = 0;
   for (int n = 0; n < pairs; ++n) {
     const auto p = random.polygon(3 + random.below(60), 3, {0, 0});
@@ -179,6 +179,7 @@ TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
 /// nearly touch.
 TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
   RandomPolygons random(test::testSeed(45));
+  const int count = test::casesOf(24, 100);  // the gap has one of twelve sizes, and either sign
   for (const std::size_t n : {10u, 1000u, 100'000u / test::kSlowdown}) {
     std::vector<Vec2> points;
     for (std::size_t i = 0; i < n; ++i) {
@@ -188,7 +189,7 @@ TEST(PolygonIntersection, TakesLogarithmicallyManySteps) {
     }
     const ConvexPolygon p(points);
     int most = 0;
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < count; ++k) {
       const double angle = M_PI * random.real(), gap = std::pow(10.0, -1 - k % 12);
       std::vector<Vec2> moved = points;
       for (Vec2& x : moved)

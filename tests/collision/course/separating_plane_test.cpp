@@ -80,7 +80,7 @@ void compareSets(int count, std::uint64_t seed) {
 }
 
 int numberOfSets() {
-  return test::isStressRun() ? 100'000 : 3000 / test::kSlowdown;
+  return test::casesOf(380, 100'000);
 }
 
 TEST(SeparatingPlane, AgreesWithRationalSimplexInSpace) {

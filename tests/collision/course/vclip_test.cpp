@@ -61,7 +61,7 @@ double sizeOf(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
 
 TEST(VClip, AgreesWithAllPairsOfFeatures) {
   ExactPairs make(test::testSeed(61));
-  const int pairs = test::isStressRun() ? 100'000 : 1000 / test::kSlowdown;
+  const int pairs = test::casesOf(650, 100'000);
   int meeting = 0, closest = 0, apart = 0, oneRound = 0, mostSteps = 0;
   for (int n = 0; n < pairs; ++n) {
     const Polytope a = make.polytope(make.pick(ExactPairs::kKinds)),

@@ -112,7 +112,7 @@ TEST(CertifyMotion, NeedleThroughAHole) {
 /// no contact at sampled, rounded poses of the motion. (These poses are inside the default tube.)
 TEST(CertifyMotion, RandomEdges) {
   std::mt19937_64 random(test::testSeed(9));
-  const int count = (test::isStressRun() ? 450'000 : 25'000) / test::kSlowdown;
+  const int count = test::casesOf(1'700, 450'000);
   int free = 0, contact = 0, undecided = 0;
   for (int n = 0; n < count; ++n) {
     const Body fixed = bodyOf(blob(random, 60, 2, 0.3)),

@@ -81,7 +81,7 @@ struct ChainGrazing {
 
 TEST(CertifyMotion, ChainsThatGrazeByConstruction) {
   std::mt19937_64 random(test::testSeed(23));
-  const int count = (test::isStressRun() ? 50'000 : 5'000) / test::kSlowdown;
+  const int count = test::casesOf(700, 50'000);
   int apart = 0, together = 0, falseFree = 0, falseContact = 0, notFree = 0, notFound = 0;
   QueryContext context;
   for (int n = 0; apart + together < count; ++n) {
@@ -121,7 +121,7 @@ TEST(CertifyMotion, RandomChainsAgainstSamples) {
     return std::uniform_real_distribution(low, high)(random);
   };
   const auto vector = [&] { return Vec3(real(), real(), real()); };
-  const int count = (test::isStressRun() ? 20'000 : 2'000) / test::kSlowdown;
+  const int count = test::casesOf(900, 20'000);
   int verdicts[3] = {};
   for (int n = 0; n < count; ++n) {
     TriangleMesh a, b;

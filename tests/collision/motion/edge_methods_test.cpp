@@ -345,7 +345,7 @@ TEST_P(EdgeMethods, SlowContactGrazes) {
 /// twice the tolerance and the work limit is not reached.
 TEST_P(EdgeMethods, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));
-  const int count = (test::isStressRun() ? 10'000 : 1'000) / test::kSlowdown;
+  const int count = test::casesOf(420, 10'000);
   int apart = 0, together = 0, free = 0, contact = 0, tooMuch = 0;
   for (int n = 0; apart + together < count; ++n) {
     const double size = std::pow(10.0, n % 5 - 2);

@@ -18,7 +18,7 @@ using test::Grazing;
 
 TEST(CertifyMotion, GrazingByConstruction) {
   std::mt19937_64 random(test::testSeed(8));
-  const int count = (test::isStressRun() ? 400'000 : 10'000) / test::kSlowdown;
+  const int count = test::casesOf(700, 400'000);
   const std::vector<std::int64_t> targets = test::simdTargets();
   int apart = 0, together = 0, falseFree = 0, falseContact = 0, notFree = 0, notFound = 0;
   for (int n = 0; apart + together < count; ++n) {

@@ -88,7 +88,7 @@ long double lowest(const ShapeFeature& b, const LineAndTurn& motion, long double
 /// the plane and rotates about its normal.
 TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
-  const int count = (test::isStressRun() ? 100'000 : 20'000) / test::kSlowdown;
+  const int count = test::casesOf(6'000, 100'000);
   int falseFree = 0, falseContact = 0, notFree = 0, apart = 0, together = 0;
   std::uint64_t slideIntervals = 0, slides = 0;
   for (int n = 0; apart + together < count; ++n) {

@@ -139,7 +139,7 @@ TEST_P(Sturm, ClosedForms) {
 /// the kind `nearby`, which are not constructed as near misses.
 TEST_P(Sturm, Motions) {
   std::mt19937_64 random(test::testSeed(41));
-  const int count = (test::isStressRun() ? 40'000 : 2'000) / test::kSlowdown;
+  const int count = test::casesOf(1'000, 40'000);
   const std::array<const char*, RationalScene::kinds> names = {"nearby", "coplanar", "meeting",
                                                                "tangential"};
   for (int kind = 0; kind < RationalScene::kinds; ++kind) {

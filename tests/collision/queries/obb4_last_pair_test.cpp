@@ -176,7 +176,8 @@ TEST(Obb4LastPair, OfOtherTrees) {
       MeshAndTree(soup(random, 1, 0.3)), MeshAndTree(slats(2))};
   QueryContext context;
   LastPair last;
-  for (int n = 0; n < 200 / test::kSlowdown; ++n) {
+  const int count = test::casesOf(80, 200);
+  for (int n = 0; n < count; ++n) {
     const MeshAndTree &bodyA = bodies[random() % bodies.size()],
                       &bodyB = bodies[random() % bodies.size()];
     const Obb4Tree &a = bodyA.tree, &b = bodyB.tree;

@@ -63,7 +63,7 @@ struct RandomScene {
 
 TEST(EveryTreeKind, StatesAndClearances) {
   std::mt19937_64 random(test::testSeed(61));
-  const int count = (test::isStressRun() ? 10'000 : 500) / test::kSlowdown;
+  const int count = test::casesOf(100, 10'000);
   int contacts = 0, asked = 0;
   std::map<TreeKind, Counters> counters;
   for (int n = 0; n < count; ++n) {
@@ -105,7 +105,7 @@ TEST(EveryTreeKind, StatesAndClearances) {
 /// rarely close to each other, so only a few edges may be `undecided`.
 TEST(EveryTreeKind, Edges) {
   std::mt19937_64 random(test::testSeed(62));
-  const int count = (test::isStressRun() ? 20'000 : 1'000) / test::kSlowdown;
+  const int count = test::casesOf(160, 20'000);
   std::array<int, 3> verdicts = {};
   for (int n = 0; n < count; ++n) {
     const RandomScene scenes(random);

@@ -42,7 +42,7 @@ void stray(RandomTrees& random, const Configuration& tube, Configuration& from, 
 /// perturbations within the tube.
 TEST(ChainBound, IsNeverExceeded) {
   RandomTrees random(test::testSeed(1));
-  const int count = test::isStressRun() ? 2'000'000 : 150'000;
+  const int count = test::casesOf(32'000, 2'000'000);
   double tightest = 0, tightestAlong = 0, tightestStray = 0;
   for (int n = 0; n < count; ++n) {
     if (n % 5 == 0) random.makeTree(1 + random.randomIndex(8));

@@ -109,7 +109,7 @@ struct CurveGrazing {
 
 TEST(CurveMotion, CurvesThatGrazeByConstruction) {
   RandomTrees random(test::testSeed(51));
-  const int count = (test::isStressRun() ? 20'000 : 200) / test::kSlowdown;
+  const int count = test::casesOf(55, 20'000);
   int apart = 0, together = 0, notFree = 0, notFound = 0;
   QueryContext context;
   for (int n = 0; apart + together < count; ++n) {
@@ -236,7 +236,7 @@ TEST(CurveMotion, StraightPiecesHaveTheVerdictOfTheEdge) {
 /// subdivision and elevation of the degree do not change a verdict.
 TEST(CurveMotion, RandomPiecesAgainstSamples) {
   RandomTrees random(test::testSeed(52));
-  const int count = (test::isStressRun() ? 100'000 : 1'000) / test::kSlowdown;
+  const int count = test::casesOf(300, 100'000);
   int verdicts[3] = {};
   QueryContext context;
   for (int n = 0; n < count; ++n) {

@@ -66,7 +66,7 @@ double noise(const CurvePiece& piece, double reach) {
 
 TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(41));
-  const int count = test::isStressRun() ? 500'000 : 50'000;
+  const int count = test::casesOf(20'000, 500'000);
   double worst = 0;
   for (int n = 0; n < count; ++n) {
     if (n % 5 == 0) random.makeTree(1 + random.randomIndex(8));
@@ -99,7 +99,7 @@ TEST(CurveMotion, PosesAndTwistsAreWithinTheirStatedError) {
 /// In the whole interval, no point of b moves farther than the motion bound.
 TEST(CurveMotion, MotionBoundsHold) {
   RandomTrees random(test::testSeed(42));
-  const int count = test::isStressRun() ? 300'000 : 30'000;
+  const int count = test::casesOf(4'000, 300'000);
   double worstIsotropic = 0, worstBeyond = 0;
   for (int n = 0; n < count; ++n) {
     if (n % 5 == 0) random.makeTree(1 + random.randomIndex(6));

@@ -59,7 +59,7 @@ TEST(EdgeMotion, PosesAndTwistsAreWithinTheirStatedError) {
   RandomTrees random(test::testSeed(1));
   double worst = 0, worstTwist = 0;  // the largest error divided by its bound
   std::vector<double> shares;
-  const int count = test::isStressRun() ? 1'000'000 : 100'000;
+  const int count = test::casesOf(50'000, 1'000'000);
   for (int n = 0; n < count; ++n) {
     if (n % 5 == 0) random.makeTree(1 + random.randomIndex(12), n % 7 ? 1 : 1000);
     random.makeEdge(n % 3 ? 2 : 20, n % 11 ? 3 : 100);
@@ -237,7 +237,8 @@ TEST(EdgeMotion, ScrewsAreTheMotion) {
 
 TEST(EdgeMotion, ManyPairsShareOneMotion) {
   RandomTrees random(test::testSeed(3));
-  for (int n = 0; n < 500; ++n) {
+  const int count = test::casesOf(170, 500);
+  for (int n = 0; n < count; ++n) {
     random.makeTree(8);
     std::vector<Scene::FramePair> pairs;
     for (std::size_t a = 0; a < random.tree.frames.size(); ++a)

@@ -90,7 +90,7 @@ class UrdfFuzz : public UrdfTest {
 
   template <class Read>
   void attack(const std::string& whole, Read read) {
-    const int mutations = isStressRun() ? 200000 : 4000;
+    const int mutations = casesOf(3'000, 200'000);
     Random random(testSeed(11));
     int sound = 0, refused = 0;
     for (int i = 0; i < mutations; ++i) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/planner/trajectory/paths.h"
+#include "tests/support/support.h"
 
 namespace corridor::test {
 namespace {
@@ -74,7 +75,8 @@ TEST(Optimum, IsFoundOnRandomCurves) {
   const unsigned seed = 20180731;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> value(-1, 1);
-  for (int i = 0; i < 20; ++i) {
+  const int curves = test::casesOf(7, 20);
+  for (int i = 0; i < curves; ++i) {
     const std::size_t joints = 1 + static_cast<std::size_t>(i) % 3 + 1;
     const std::size_t degree = 2 + static_cast<std::size_t>(i) % 4;
     std::vector<std::vector<double>> rows(joints, std::vector<double>(degree + 1));

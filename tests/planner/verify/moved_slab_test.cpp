@@ -219,7 +219,8 @@ TEST(MovedSlab, IsAttained) {
   std::mt19937_64 random(test::testSeed(9));
   Real worst = kInfinity, gained = 0;
   int cases = 0;
-  for (int i = 0; i < 150; ++i) {
+  const int count = test::casesOf(90, 150);
+  for (int i = 0; i < count; ++i) {
     const Arm arm(random);
     for (const int kind : {0, 1, 3, 4}) {  // no cylinders: the bound for a disc is not attained
       const Case one(arm, i % 2 == 1, random, 1e-6, kind + 5 * kind);

@@ -213,7 +213,7 @@ TEST(VerifyChain, JointsOfOneVariableHaveOnePerturbation) {
 
 TEST(VerifyChain, RandomPathsAgainstDenseSampling) {
   std::mt19937_64 random(test::testSeed(7));
-  const int paths = test::isStressRun() ? 300 : 60;
+  const int paths = test::casesOf(45, 300);
   int proved = 0, refuted = 0;
   for (int i = 0; i < paths; ++i) {
     const Vec3 at = test::randomVec(random, 1.5);

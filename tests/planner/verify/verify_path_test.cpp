@@ -451,7 +451,7 @@ double sampledDistance(World& world, const RigidPose& from, const RigidPose& to,
 
 TEST(VerifyPath, RandomPathsAgainstDenseSampling) {
   std::mt19937_64 random(test::testSeed(4));
-  const int paths = test::isStressRun() ? 400 : 60;
+  const int paths = test::casesOf(12, 400);
   int proved = 0, refuted = 0;
   for (int i = 0; i < paths; ++i) {
     World world(test::randomSoup(random, 8, 0.3, 0.2), test::randomSoup(random, 30, 1.5, 0.2));

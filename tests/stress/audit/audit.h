@@ -54,9 +54,8 @@ class Audit {
 /// generator of its own, so it can be repeated alone.
 Dice diceOf(std::uint64_t seed, long number);
 
-/// Returns the number of cases of a test: `normally`, or `stress` if CORRIDOR_STRESS is set. The
-/// number is divided by the slowdown of sanitizers. If CORRIDOR_AUDIT_COUNT is set, returns that
-/// number instead.
+/// Returns the number of cases of a test: `normally`, or `stress` if CORRIDOR_STRESS is set. If
+/// CORRIDOR_AUDIT_COUNT is set, returns that number instead.
 long countOf(long normally, long stress);
 
 }  // namespace corridor::audit

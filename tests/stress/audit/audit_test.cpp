@@ -10,21 +10,21 @@ namespace {
 
 TEST(Audit, Edges) {
   Audit audit(1, {});
-  audit.run(countOf(10'000, 1'000'000));
+  audit.run(countOf(450, 1'000'000));
   audit.report("edges");
   audit.expectDecided();
 }
 
 TEST(Audit, States) {
   Audit audit(2, {.states = true});
-  audit.run(countOf(10'000, 1'000'000));
+  audit.run(countOf(2'500, 1'000'000));
   audit.report("states");
   audit.expectDecided();
 }
 
 TEST(Audit, Curves) {
   Audit audit(12, {.curves = true});
-  audit.run(countOf(1'500, 400'000));
+  audit.run(countOf(420, 400'000));
   audit.report("curves");
   audit.expectDecided();
 }
@@ -34,11 +34,11 @@ TEST(Audit, Curves) {
 TEST(Audit, DepthsOfRounding) {
   for (const bool states : {false, true}) {
     Audit audit(9, {.states = states, .fine = true, .verify = 20});
-    audit.run(countOf(3'000, 200'000));
+    audit.run(countOf(280, 200'000));
     audit.report(states ? "depths of rounding, states" : "depths of rounding, edges");
   }
   Audit curves(13, {.curves = true, .fine = true, .verify = 20});
-  curves.run(countOf(1'000, 100'000));
+  curves.run(countOf(130, 100'000));
   curves.report("depths of rounding, curves");
 }
 
@@ -47,7 +47,7 @@ TEST(Audit, DepthsOfRounding) {
 TEST(Audit, LargeValuesOfCircles) {
   for (const bool states : {false, true}) {
     Audit audit(3, {.states = states, .verify = 1, .family = Family::largeCircles});
-    audit.run(countOf(700, 50'000));
+    audit.run(countOf(200, 50'000));
     audit.report(states ? "large circles, states" : "large circles, edges");
   }
 }
@@ -59,7 +59,7 @@ class Modes : public testing::TestWithParam<Mode> {};
 TEST_P(Modes, RightOrRefused) {
   for (const bool states : {false, true}) {
     Audit audit(4, {.states = states, .verify = 2, .mode = GetParam()});
-    audit.run(countOf(1'000, 50'000));
+    audit.run(countOf(200, 50'000));
     audit.report(states ? "states" : "edges");
     if (GetParam() == Mode::flushToZero) audit.expectDecided();
   }

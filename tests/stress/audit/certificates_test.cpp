@@ -27,7 +27,7 @@ constexpr EdgeMethod kEdgeMethods[] = {EdgeMethod::directional, EdgeMethod::adap
 /// query returns for free edges must be accepted.
 TEST(Certificates, AcceptedImpliesTheMarginIsKept) {
   const std::uint64_t seed = test::testSeed(5);
-  const long count = countOf(500, 50'000);
+  const long count = countOf(320, 50'000);
   long honest = 0, accepted = 0, forged = 0;
   int wrong = 0, claimed = 0;
   for (long number = 0; forged < count; ++number) {
@@ -186,7 +186,7 @@ TEST(Certificates, NothingIsFreeInsideASolid) {
 /// edge that does not pass the seam is decided as usual.
 TEST(Certificates, MimicsOverTheSeamOfACircle) {
   const std::uint64_t seed = test::testSeed(8);
-  const long count = countOf(1'000, 50'000);
+  const long count = countOf(150, 50'000);
   int free = 0, proved = 0, wrong = 0;
   long over = 0, decided = 0;
   for (long number = 0; number < count; ++number) {

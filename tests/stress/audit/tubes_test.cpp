@@ -120,7 +120,7 @@ struct ProofCounts {
 TEST(Audit, CurvesThatTouchInTheirTube) {
   const std::uint64_t seed = test::testSeed(15);
   const char* only = std::getenv("CORRIDOR_AUDIT_CASE");
-  const long count = only ? 1 : countOf(200, 100'000);
+  const long count = only ? 1 : countOf(130, 100'000);
   ProofCounts touching, bare, noTube, noError;
   long wrong = 0;
   std::array<long, CurvePiece::kLargestDegree + 1> degrees{};
