@@ -254,7 +254,7 @@ TYPED_TEST(ObbOverlaps, NonFiniteBoxesAreNotSeparated) {
 /// pair.
 TEST(ObbOverlapsAgainstRationals, AgreeUpToTheMargin) {
   std::mt19937_64 random(test::testSeed(61));
-  const int rounds = (test::isStressRun() ? 100'000 : 2'000) / test::kSlowdown;
+  const int rounds = test::casesOf(400, 100'000);
   const char* const names[] = {"separating axes", "GJK", "linear program", "edges and faces"};
   int touching = 0, apart = 0, clear[4] = {}, separatedPairs[4] = {};
   for (int n = 0; n < rounds; ++n) {
