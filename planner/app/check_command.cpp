@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "collision/core/csv_text.h"
 #include "collision/core/shortest.h"
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
@@ -19,7 +20,6 @@
 #include "planner/checker/still_pairs.h"
 #include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/state_yaml.h"
-#include "planner/solve/csv_text.h"
 #include "planner/solve/solve.h"
 #include "planner/solve/state_rows.h"
 #include "planner/solve/why_not_free.h"

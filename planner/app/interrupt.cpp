@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <ctime>
 
-#include "planner/solve/user_signals.h"
+#include "collision/core/user_signals.h"
 
 namespace corridor::app {
 namespace {

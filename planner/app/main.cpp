@@ -4,7 +4,7 @@
 
 #include "planner/app/commands.h"
 #include "planner/app/other_program.h"
-#include "planner/app/run_program.h"
+#include "planner/app/run_commands.h"
 
 using namespace corridor::app;
 
@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == "benchmark") return becomeProgram("corridor_benchmark", {argv + 1, argv + argc});
   if (command == "query") return becomeProgram("corridor_query", {argv + 1, argv + argc});
-  return runProgram(argc, argv,
-                    {addSolve, addVerify, addView, listBenchmark, addCheck, addInspect, addPose,
-                     listQuery, addNew});
+  return runCommands(argc, argv,
+                     {addSolve, addVerify, addView, listBenchmark, addCheck, addInspect, addPose,
+                      listQuery, addNew});
 }

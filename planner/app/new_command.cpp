@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/whole_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/new_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
-#include "planner/solve/whole_file.h"
 
 namespace corridor::app {
 

@@ -9,12 +9,12 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/core/whole_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/digest.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/solution.h"
-#include "planner/solve/whole_file.h"
 #include "planner/trajectory/trajectory_text.h"
 #include "planner/view/path_picture.h"
 
@@ -45,14 +45,6 @@ bool isBetter(const ConfigurationSpace& space, const SolveReport& a, const Solve
 /// first.
 SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions& options,
                    std::uint64_t& tries) {
-  if (a.keep == "clearest" && preferredClearance(problem) == 0)
-    throw InputError(
-        Fault{"--keep", 0,
-              "the clearest path needs a preferred clearance" +
-                  std::string(problem.task.margin > 0
-                                  ? ", which can't be used with a margin: --margin 0 --clearance " +
-                                        shortest(problem.task.margin) + " replaces it"
-                                  : ", such as --clearance 0.005")});
   SolveReport best = solveProblem(problem, options);
   // OMPL takes a seed of 0 as 1.
   const std::uint64_t first = std::max<std::uint64_t>(problem.settings.seed, 1);
@@ -77,6 +69,56 @@ SolveReport bestOf(const SolveArguments& a, Problem& problem, const SolveOptions
   return best;
 }
 
+/// Tests what can be tested before planning. @throws InputError if the arguments name an input file
+/// as an output file, a trajectory file that can't hold the trajectory, or a choice of paths that
+/// the problem can't make. Call this with the problem that `applyArguments` has changed.
+void requirePossible(const SolveArguments& a, const Problem& problem) {
+  requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
+  requireNotAnInput(a.picture, "--picture", problem.source.files, "the problem");
+  requireNotAnInput(a.trajectory, "--trajectory", problem.source.files, "the problem");
+  if (a.trajectory && trajectoryKindOf(*a.trajectory) == TrajectoryFileKind::message &&
+      hasRotation(problem.model.space))
+    throw InputError(Fault{"--trajectory", 0,
+                           "a JointTrajectory can't hold the rotation of a floating base; a name "
+                           "that ends in .csv is needed"});
+  if (a.keep == "clearest" && preferredClearance(problem) == 0)
+    throw InputError(
+        Fault{"--keep", 0,
+              "the clearest path needs a preferred clearance" +
+                  std::string(problem.task.margin > 0
+                                  ? ", which can't be used with a margin: --margin 0 --clearance " +
+                                        shortest(problem.task.margin) + " replaces it"
+                                  : ", such as --clearance 0.005")});
+}
+
+/// Returns the function that shows the progress of the search on the terminal.
+auto progressOn(const Problem& problem) {
+  return [&problem](const SolveProgress& p) {
+    std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.source.name.c_str(),
+                 problem.settings.planner.name.c_str(), p.seconds, problem.settings.planner.time,
+                 counted(p.edges, "edge").c_str());
+  };
+}
+
+/// Writes the files that the arguments name. The problem is solved.
+void writeFiles(const SolveArguments& a, const Problem& problem, const SolveReport& report,
+                const std::string& digest, const std::optional<ViewDirection>& from) {
+  if (a.output == "-")
+    std::cout << solutionText(makeSolution(problem, report, digest));
+  else if (a.output)
+    writeSolution(makeSolution(problem, report, digest), *a.output);
+  std::optional<double> seconds;
+  if (report.trajectory && report.trajectory->proved()) {
+    writeWhole(*a.trajectory, report.trajectory->text);
+    seconds = report.trajectory->duration;
+  }
+  if (a.picture == "-")
+    std::cout << svgPicture(problem, report.path, from, seconds);
+  else if (a.picture)
+    writeWhole(*a.picture, isPng(*a.picture) ? pngPicture(problem, report.path, from)
+                                             : svgPicture(problem, report.path, from, seconds));
+}
+
 }  // namespace
 
 TrajectoryFileKind trajectoryKindOf(const std::string& file) {
@@ -93,27 +135,14 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - before;
   // Computed before planning, because the files may change while the planner runs.
   const std::string digest = a.output ? digestOf(problem) : "";
-  requireNotAnInput(a.output, "--output", problem.source.files, "the problem");
-  requireNotAnInput(a.picture, "--picture", problem.source.files, "the problem");
-  requireNotAnInput(a.trajectory, "--trajectory", problem.source.files, "the problem");
-  if (a.trajectory && trajectoryKindOf(*a.trajectory) == TrajectoryFileKind::message &&
-      hasRotation(problem.model.space))
-    throw InputError(Fault{"--trajectory", 0,
-                           "a JointTrajectory can't hold the rotation of a floating base; a name "
-                           "that ends in .csv is needed"});
   SolveOptions options;
   options.valueOrigins = applyArguments(a, problem);
+  requirePossible(a, problem);
   options.interrupted = &interrupted;
   options.noteLeftOut = true;
   if (a.trajectory) options.trajectory = trajectoryKindOf(*a.trajectory);
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;
-  if (show) {
-    options.progress = [&](const SolveProgress& p) {
-      std::fprintf(stderr, "\r%s: %s, %.1f of %g s, %s\033[K", problem.source.name.c_str(),
-                   problem.settings.planner.name.c_str(), p.seconds, problem.settings.planner.time,
-                   counted(p.edges, "edge").c_str());
-    };
-  }
+  if (show) options.progress = progressOn(problem);
   std::optional<ViewDirection> from;
   if (a.from) from = viewDirection(*a.from, "--from");
   std::uint64_t tries = 1;
@@ -122,21 +151,7 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   for (const Fault& fault : report.warnings) warn(fault.str());
   addFirst(report.notes, problem.source.notes);
   if (beforeWriting) beforeWriting();
-  if (report.outcome == SolveOutcome::solved) {
-    if (a.output == "-")
-      std::cout << solutionText(makeSolution(problem, report, digest));
-    else if (a.output)
-      writeSolution(makeSolution(problem, report, digest), *a.output);
-    if (report.trajectory && report.trajectory->proved())
-      writeWhole(*a.trajectory, report.trajectory->text);
-    std::optional<double> seconds;
-    if (report.trajectory && report.trajectory->proved()) seconds = report.trajectory->duration;
-    if (a.picture == "-")
-      std::cout << svgPicture(problem, report.path, from, seconds);
-    else if (a.picture)
-      writeWhole(*a.picture, isPng(*a.picture) ? pngPicture(problem, report.path, from)
-                                               : svgPicture(problem, report.path, from, seconds));
-  }
+  if (report.outcome == SolveOutcome::solved) writeFiles(a, problem, report, digest, from);
   return {std::move(problem), std::move(report), reading.count(), tries};
 }
 

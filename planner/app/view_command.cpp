@@ -11,6 +11,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
+#include "collision/core/whole_file.h"
 #include "collision/geometry/assimp_import.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
@@ -21,7 +22,6 @@
 #include "planner/app/output.h"
 #include "planner/checker/left_out.h"
 #include "planner/problem/problem.h"
-#include "planner/solve/whole_file.h"
 #include "planner/view/browser_picture.h"
 #include "planner/view/view_page.h"
 #include "planner/view/volume_picture.h"

@@ -11,12 +11,12 @@
 #include <ompl/base/PlannerStatus.h>
 #include <ompl/config.h>
 
+#include "collision/core/csv_text.h"
 #include "collision/core/error.h"
 #include "collision/core/shortest.h"
 #include "planner/benchmark/rows.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/csv_text.h"
 
 namespace corridor {
 namespace {

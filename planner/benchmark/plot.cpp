@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <unistd.h>
 
+#include "collision/core/csv_text.h"
 #include "collision/core/external_program.h"
 #include "collision/core/shortest.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/csv_text.h"
 
 namespace corridor {
 namespace {

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "collision/core/error.h"
+#include "collision/core/whole_file.h"
 #include "planner/benchmark/report_plots.h"
 #include "planner/benchmark/report_tables.h"
 #include "planner/benchmark/write_reports.h"
-#include "planner/solve/whole_file.h"
 #include "planner/view/page_text.h"
 
 namespace corridor {

@@ -7,12 +7,12 @@
 #include <limits>
 #include <sstream>
 
+#include "collision/core/csv_text.h"
 #include "collision/core/quantiles.h"
 #include "collision/core/shortest.h"
 #include "planner/benchmark/statistics.h"
 #include "planner/benchmark/trajectory_rows.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/csv_text.h"
 
 namespace corridor {
 namespace {

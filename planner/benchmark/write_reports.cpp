@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "collision/core/error.h"
+#include "collision/core/whole_file.h"
 #include "planner/benchmark/ompl_database.h"
 #include "planner/benchmark/rows.h"
-#include "planner/solve/whole_file.h"
 
 namespace corridor {
 namespace {

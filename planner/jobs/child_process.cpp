@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "collision/core/memory_limit.h"
-#include "planner/solve/user_signals.h"
+#include "collision/core/user_signals.h"
 
 namespace corridor {
 namespace {

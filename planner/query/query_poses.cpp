@@ -17,10 +17,10 @@
 #include "collision/core/read_file.h"
 #include "collision/core/rounding.h"
 #include "collision/core/spelling.h"
+#include "collision/core/whole_file.h"
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"
 #include "planner/problem/yaml_reader.h"
-#include "planner/solve/whole_file.h"
 
 namespace corridor::app {
 namespace {

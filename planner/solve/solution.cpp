@@ -7,11 +7,11 @@
 
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/core/whole_file.h"
 #include "planner/problem/format_key.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/state_rows.h"
-#include "planner/solve/whole_file.h"
 #include "planner/trajectory/trajectory_file.h"
 
 namespace corridor {

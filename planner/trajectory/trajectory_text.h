@@ -6,7 +6,7 @@
 
 /// Functions that make the texts of trajectory files. `readTrajectory` reads such a text back as
 /// the same doubles. To write a file completely or not at all, pass the text to `writeWhole`
-/// (planner/solve/whole_file.h).
+/// (collision/core/whole_file.h).
 namespace corridor {
 
 /// Returns a CSV text with a header line: `time` if the rows have times, then the names of the

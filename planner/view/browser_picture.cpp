@@ -17,7 +17,7 @@
 #include "collision/core/external_program.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
-#include "planner/solve/whole_file.h"
+#include "collision/core/whole_file.h"
 
 extern char** environ;
 

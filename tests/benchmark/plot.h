@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "collision/core/whole_file.h"
 #include "planner/benchmark/plot.h"
-#include "planner/solve/whole_file.h"
 
 /// What the benchmarks add to the plots of planner/benchmark: lines with a dot at every
 /// measurement.

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "collision/core/error.h"
+#include "collision/core/whole_file.h"
 #include "planner/solve/state_rows.h"
 #include "planner/solve/verify_solution.h"
-#include "planner/solve/whole_file.h"
 #include "tests/planner/checker/hall.h"
 #include "tests/support/support.h"
 

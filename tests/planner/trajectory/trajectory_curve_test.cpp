@@ -4,9 +4,9 @@
 
 #include <random>
 
+#include "collision/core/whole_file.h"
 #include "planner/solve/outside_bounds.h"
 #include "planner/solve/verify_solution.h"
-#include "planner/solve/whole_file.h"
 #include "planner/trajectory/trajectory_text.h"
 #include "tests/planner/trajectory/trajectory_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "planner/solve/csv_text.h"
+#include "collision/core/csv_text.h"
 
 namespace corridor {
 

@@ -1,4 +1,4 @@
-#include "planner/app/run_program.h"
+#include "planner/app/run_commands.h"
 
 #include <csignal>
 #include <exception>
@@ -19,8 +19,8 @@
 
 namespace corridor::app {
 
-int runProgram(int argc, char** argv,
-               std::initializer_list<std::function<void(CLI::App&, int&)>> commands) {
+int runCommands(int argc, char** argv,
+                std::initializer_list<std::function<void(CLI::App&, int&)>> commands) {
   openStandardStreams();
   // By default SIGXFSZ ends the program when a file reaches the size limit (ulimit -f). If the
   // signal is ignored, writing fails instead, and is reported like a full disk.

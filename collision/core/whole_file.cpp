@@ -1,4 +1,4 @@
-#include "planner/solve/whole_file.h"
+#include "collision/core/whole_file.h"
 
 #include <cerrno>
 #include <csignal>
@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "collision/core/error.h"
-#include "planner/solve/user_signals.h"
+#include "collision/core/user_signals.h"
 
 namespace corridor {
 namespace {
