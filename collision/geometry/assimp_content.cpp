@@ -46,7 +46,8 @@ void checkContent(ContentKind kind, const std::string& file, std::string_view by
   std::uint32_t size = 0;
   if (bytes.size() < 20) return;
   std::memcpy(&size, bytes.data() + 12, sizeof size);
-  checkGltf(file, bytes.substr(20, size), report);
+  // A second part has the data of the first buffer.
+  checkGltf(file, bytes.substr(20, size), report, bytes.size() > std::size_t{20} + size);
 }
 
 }  // namespace corridor

@@ -70,7 +70,9 @@ bool isReadRightly(std::string_view word, double value, double largest);
 std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& folder);
 
 /// The parts of `checkContent`.
-void checkGltf(const std::string& file, std::string_view json, ContentReport& report);
+/// @param hasOwnData whether the file, a binary one, has the data of its first buffer
+void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
+               bool hasOwnData = false);
 /// Does nothing for binary files.
 void checkFbx(const std::string& file, std::string_view text, ContentReport& report);
 void checkXml(ContentKind kind, const std::string& file, std::string_view text,

@@ -34,6 +34,9 @@ class FbxCheck {
       : file_(file), text_(text), report_(report) {}
 
   void run() {
+    // assimp ends at a NUL, and takes a form feed for the end of a line.
+    if (text_.find_first_of(std::string_view("\0\f\v", 3)) != text_.npos)
+      fault(0, "a character that text doesn't have: NUL, form feed or vertical tab" + kEnds);
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '"') {
@@ -47,7 +50,7 @@ class FbxCheck {
         ++at_;
       } else if (c == '}') {
         finish();
-        if (open_.empty()) return;
+        if (open_.empty()) return fault(line_, "a } without a {, where assimp ends" + kEnds);
         element_ = std::move(open_.back());
         open_.pop_back();
         finish();
@@ -75,6 +78,8 @@ class FbxCheck {
     int line = 0;
     std::set<std::string> single;  // what is in the element, and may be in it once
   };
+
+  inline static const std::string kEnds = "; remove it";
 
   static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -113,7 +118,10 @@ class FbxCheck {
     if (name == "P" && around() == "Properties70" && element_.values.size() > 4 &&
         isProperty(element_.values[0])) {
       requireFirst(std::string(element_.values[0]));
-      checkNumbers({element_.values.begin() + 4, element_.values.end()}, element_.values[0]);
+      const std::vector<std::string_view> numbers(element_.values.begin() + 4,
+                                                  element_.values.end());
+      checkNumbers(numbers, element_.values[0]);
+      checkSize(numbers, element_.values[0]);
     }
     element_ = {};
   }
@@ -136,6 +144,27 @@ class FbxCheck {
     }
   }
 
+  /// Checks a property of a size that assimp does not apply: a unit that is not positive, and a
+  /// transform so near the identity that the square of the difference is at most 2^-23.
+  void checkSize(const std::vector<std::string_view>& words, std::string_view name) {
+    if (name == "UnitScaleFactor" && !(words.size() == 1 && numberIn(words[0]) > 0))
+      return fault(element_.line, "UnitScaleFactor is not a number above 0");
+    if (words.size() != 3) return;                              // not a vector
+    const double identity = name.ends_with("Scaling") ? 1 : 0;  // a scale
+    double square = 0;
+    for (const std::string_view word : words)
+      square += (numberIn(word) - identity) * (numberIn(word) - identity);
+    if (!(square > 0)) return;
+    constexpr double kIgnored = 0x1p-23 * 1.001;  // with the roundings of assimp's sum in floats
+    constexpr double kNoise = 1e-9;  // programs write such numbers for 0; they are noted
+    if (square <= kNoise * kNoise)
+      report_.note("transforms of FBX within 1e-9 of the identity are not applied");
+    else if (square <= kIgnored)
+      fault(element_.line, std::string(name) +
+                               " is so near the identity that assimp does not apply it; apply it "
+                               "in the modeller, or remove it");
+  }
+
   /// Checks the corners of polygons, of which the last has a negative number.
   void checkCorners() {
     std::string_view last = "-1";
@@ -146,7 +175,7 @@ class FbxCheck {
                      "PolygonVertexIndex may have whole numbers only, with at most 31 bits");
       last = word;
     }
-    if (!last.starts_with('-'))
+    if (!last.starts_with('-') || numberIn(last) == 0)
       fault(element_.line,
             "the last polygon does not end, and assimp drops it; make its last corner negative");
   }

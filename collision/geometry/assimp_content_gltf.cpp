@@ -60,8 +60,10 @@ std::optional<Json> parse(const std::string& file, std::string_view text, Conten
     return Json::parse(text, check);
   } catch (const Json::parse_error& error) {
     report.fault(file, 0, "no valid JSON at byte " + std::to_string(error.byte));
-    return std::nullopt;
+  } catch (const Json::exception&) {  // a number beyond the doubles
+    report.fault(file, 0, "no valid JSON: a number is out of range");
   }
+  return std::nullopt;
 }
 
 class GltfCheck {
@@ -191,12 +193,55 @@ class GltfCheck {
         requireReference(at(member(primitive, "attributes"), "POSITION"), "POSITION", "accessors");
         checkStride("POSITION", member(member(primitive, "attributes"), "POSITION"));
         checkStride("indices", member(primitive, "indices"));
+        checkRange("POSITION", member(member(primitive, "attributes"), "POSITION"));
+        checkRange("indices", member(primitive, "indices"));
       }
     }
   }
 
   static std::uint64_t unsignedOf(const Json& value) {
     return value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
+  }
+
+  /// Returns the bytes of a component of an accessor, or of a part of one.
+  static std::uint64_t bytesOf(const Json& part) {
+    const std::uint64_t kind = unsignedOf(member(part, "componentType"));
+    return kind == 5120 || kind == 5121 ? 1 : kind == 5122 || kind == 5123 ? 2 : 4;
+  }
+
+  /// Checks that the elements of an accessor lie in its view, and the view in its buffer: assimp
+  /// would read other memory.
+  void checkRange(const std::string& name, const Json& key) {
+    const Json* const accessor = at(member(root_, "accessors"), key);
+    if (!accessor) return;
+    const std::uint64_t size = (name == "POSITION" ? 3 : 1) * bytesOf(*accessor);
+    const std::uint64_t count = unsignedOf(member(*accessor, "count"));
+    requireInView(name, *accessor, count, size);
+    const Json& sparse = member(*accessor, "sparse");
+    if (!sparse.is_object()) return;
+    const Json &indices = member(sparse, "indices"), &values = member(sparse, "values");
+    const std::uint64_t few = unsignedOf(member(sparse, "count"));
+    if (member(indices, "bufferView").is_null() || member(values, "bufferView").is_null())
+      fault("a sparse accessor of " + name + " needs indices and values, each with a bufferView");
+    requireInView(name, indices, few, bytesOf(indices));
+    requireInView(name, values, few, size);
+  }
+  void requireInView(const std::string& name, const Json& part, std::uint64_t count,
+                     std::uint64_t size) {
+    const Json* const view = at(member(root_, "bufferViews"), member(part, "bufferView"));
+    if (!view || count == 0) return;
+    const std::uint64_t stride = std::max(
+        {unsignedOf(member(part, "byteStride")), unsignedOf(member(*view, "byteStride")), size});
+    // All numbers are below 2^31 (requireIntegers), so that nothing overflows.
+    const Json& length = member(*view, "byteLength");
+    if (!length.is_null() &&
+        unsignedOf(member(part, "byteOffset")) + stride * (count - 1) + size > unsignedOf(length))
+      fault("the elements of " + name + " lie beyond the byteLength of their bufferView");
+    const Json* const buffer = at(member(root_, "buffers"), member(*view, "buffer"));
+    if (buffer && !member(*buffer, "byteLength").is_null() &&
+        unsignedOf(member(*view, "byteOffset")) + unsignedOf(length) >
+            unsignedOf(member(*buffer, "byteLength")))
+      fault("the bufferView of " + name + " lies beyond the byteLength of its buffer");
   }
 
   /// Checks the distance of an accessor's elements in bytes. assimp reads sparse accessors as
@@ -210,10 +255,7 @@ class GltfCheck {
       return std::max(unsignedOf(member(part, "byteStride")),
                       view ? unsignedOf(member(*view, "byteStride")) : 0);
     };
-    const std::uint64_t kind = unsignedOf(member(*accessor, "componentType"));
-    const std::uint64_t bytes = kind == 5120 || kind == 5121   ? 1
-                                : kind == 5122 || kind == 5123 ? 2
-                                                               : 4;
+    const std::uint64_t bytes = bytesOf(*accessor);
     const std::uint64_t size = name == "POSITION" ? 3 * bytes : bytes;
     const std::uint64_t stride = strideOf(*accessor);
     if (stride > 0 && stride < size)
@@ -281,7 +323,8 @@ class GltfCheck {
       checkKeys(scene, {"nodes"});
       requireReferences(scene, "nodes", "nodes");
     }
-    for (const Json& node : member(root_, "nodes")) {
+    const Json& nodes = member(root_, "nodes");
+    for (const Json& node : nodes) {
       checkKeys(node, {"mesh", "children", "matrix", "translation", "rotation", "scale", "skin",
                        "weights"});
       requireReference(at(node, "mesh"), "mesh", "meshes");
@@ -293,6 +336,12 @@ class GltfCheck {
       bool hasParts = false;
       for (const char* const part : {"translation", "rotation", "scale"})
         hasParts |= !member(node, part).is_null();
+      // assimp moves before it turns and scales nodes of version 1.
+      if (nodes.is_object() && !member(node, "translation").is_null() &&
+          !(member(node, "rotation").is_null() && member(node, "scale").is_null()))
+        fault(
+            "a node of glTF 1.0 has a translation and a rotation or scale, which assimp applies "
+            "in the wrong order; save the mesh as glTF 2.0");
       if (hasParts && !member(node, "matrix").is_null())
         fault("a node has a matrix and another transform, of which assimp reads one; keep one");
       std::vector<double> turn;
@@ -373,8 +422,16 @@ class GltfCheck {
 
 }  // namespace
 
-void checkGltf(const std::string& file, std::string_view json, ContentReport& report) {
-  if (const auto root = parse(file, json, report)) GltfCheck(file, *root, report).run();
+void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
+               bool hasOwnData) {
+  if (const auto root = parse(file, json, report)) {
+    GltfCheck(file, *root, report).run();
+    const Json* const first = at(member(*root, "buffers"), Json(0u));
+    if (hasOwnData && first && !member(*first, "uri").is_null())
+      report.fault(file, 0,
+                   "the first buffer has a uri, but the file has data of its own, and assimp drops "
+                   "one; keep one");
+  }
 }
 
 }  // namespace corridor

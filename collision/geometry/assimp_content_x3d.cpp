@@ -200,7 +200,8 @@ class X3dCheck : public XmlCheck {
   /// Checks that the numbers of an attribute make whole triangles: assimp drops the others. The
   /// points of a <Coordinate> that is used again are those of its DEF.
   void checkTriangles(const XmlTag& tag, std::string_view attribute, std::size_t size) {
-    const auto points = points_.find(tag.value("USE"));
+    const std::string_view use = tag.value("USE");
+    const auto points = use.empty() ? points_.end() : points_.find(use);
     const std::size_t count =
         points == points_.end() ? listedNumbers(tag.value(attribute)).size() : points->second;
     if (count % size != 0)
@@ -216,7 +217,8 @@ class X3dCheck : public XmlCheck {
     if (!text) return;
     const std::string name(rule.attribute);
     const std::vector<double> numbers = listedNumbers(*text);
-    if (rule.element == "Coordinate") points_.emplace(tag.value("DEF"), numbers.size());
+    if (rule.element == "Coordinate" && !tag.value("DEF").empty())
+      points_.emplace(tag.value("DEF"), numbers.size());
     if (isListed(kWhole, name) && text->find_first_not_of("0123456789-, \t\r\n") != text->npos)
       return fault(tag.line, name + " may have whole numbers only");
     if (isListed(kWhole, name) && std::any_of(numbers.begin(), numbers.end(),

@@ -124,6 +124,7 @@ bool XmlCheck::isAccepted(std::string_view name) const {
 }
 
 void XmlCheck::run() {
+  const std::string second = "; the file needs one root, <" + std::string(rules_.root) + ">";
   bool isFirst = true;
   while (auto tag = next()) {
     if (tag->isEnd) {
@@ -132,7 +133,16 @@ void XmlCheck::run() {
       finish();
       continue;
     }
-    if (isFirst && tag->name != rules_.root) return malformed();
+    if (isFirst && tag->name != rules_.root) {
+      // assimp may find the root behind it.
+      if (text_.find('<' + std::string(rules_.root), tag->to) != text_.npos)
+        fault(tag->line, "<" + std::string(tag->name) + "> is the root" + second);
+      return malformed();
+    }
+    if (!isFirst && open_.empty()) {
+      fault(tag->line, "<" + std::string(tag->name) + "> is a second root" + second);
+      return malformed();
+    }
     isFirst = false;
     if (!open_.empty()) open_.back().isEmpty = false;
     const bool isEmpty = std::exchange(tag->isEmpty, true);  // until a child comes

@@ -195,9 +195,15 @@ class DropLog : public Assimp::LogStream {
     for (const char* const sign :
          {"Unable to resolve reference to instanced node", "Unresolved reference format of node",
           "Unable to find geometry for ID", "long message discarded",
-          "encountered duplicate object id", "TRIANGLES mode. Some vertices were dropped"})
+          "encountered duplicate object id", "TRIANGLES mode. Some vertices were dropped",
+          "ignoring material assignments", "Unsupported RotationMode", "duplicate property name"})
       if (const auto at = text.find(sign); at != text.npos)
         report_.fault(file_, 0, "assimp leaves out geometry: " + text.substr(at));
+    if (text.find("Failed to triangulate polygon") != text.npos)
+      report_.fault(
+          file_, 0,
+          "assimp can't cut a concave polygon into triangles; triangulate the mesh before "
+          "it is saved");
     if (text.find("failed to read source object for incoming Model link") != text.npos)
       report_.note("parts that are no polygons, such as NURBS surfaces, are not read");
   }

@@ -76,6 +76,45 @@ TEST_F(FbxText, CornersOfPolygons) {
               "a.fbx:14: PolygonVertexIndex may have whole numbers only, with at most 31 bits");
 }
 
+TEST_F(FbxText, CornersThatEndNoPolygon) {
+  EXPECT_THAT(fault(changed("0,1,-3", "0,1,-3,2,1,-0")),
+              HasSubstr("the last polygon does not end"));
+}
+
+TEST_F(FbxText, WhereAssimpEnds) {
+  EXPECT_THAT(fault(fbx("}\n" + settings(property("UnitScaleFactor", "100")))),
+              HasSubstr("a } without a {, where assimp ends; remove it"));
+  for (const std::string& byte : {std::string(1, '\0'), std::string("\f")})
+    EXPECT_THAT(fault(fbx("; x" + byte + "\n")), HasSubstr("a character that text doesn't have"));
+}
+
+TEST_F(FbxText, UnitsThatAreNotPositive) {
+  for (const std::string unit : {"0", "-100"})
+    EXPECT_EQ(fault(fbx(settings(property("UnitScaleFactor", unit)))),
+              "a.fbx:8: UnitScaleFactor is not a number above 0");
+}
+
+TEST_F(FbxText, TransformsThatAssimpDoesNotApply) {
+  // The square of the difference from the identity is compared with 2^-23: 3.4527e-4 squared.
+  const auto of = [&](const std::string& name, const std::string& value) {
+    return fault(fbx(settings(property(name, value))));
+  };
+  const auto small = HasSubstr("is so near the identity that assimp does not apply it");
+  EXPECT_THAT(of("Lcl Translation", "3.452e-4,0,0"), small);
+  EXPECT_THAT(of("PreRotation", "1e-4,0,-1e-4"), small);
+  EXPECT_THAT(of("Lcl Scaling", "1.0003,1,1"), small);
+  EXPECT_THAT(of("GeometricScaling", "1,0.9999,1"), small);
+  for (const std::string value : {"0,0,0", "3.46e-4,0,0", "1,1,1", "1e-15,0,0"})
+    EXPECT_EQ(of("Lcl Translation", value), "no complaint") << value;
+  EXPECT_EQ(of("Lcl Scaling", "1,1,1"), "no complaint");
+  const auto note = Contains("transforms of FBX within 1e-9 of the identity are not applied");
+  const auto notes = [&](const std::string& value) {
+    return notesOf("a.fbx", fbx(settings(property("Lcl Translation", value))));
+  };
+  EXPECT_THAT(notes("1e-15,0,0"), note);
+  EXPECT_THAT(notes("0,0,0"), Not(note));
+}
+
 TEST_F(FbxText, ObjectsOfOneId) {
   EXPECT_THAT(fault(fbx("", " Geometry: 1, \"Geometry::b\", \"Mesh\" {\n }\n")),
               HasSubstr("duplicate object id"));

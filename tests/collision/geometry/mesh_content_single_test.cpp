@@ -287,6 +287,52 @@ TEST_F(MeshContent, X3dCoordinatesThatAreThereTwice) {
       "a.x3d:1: a second <Coordinate> is in one <IndexedFaceSet>, and assimp drops one" + instead);
 }
 
+TEST_F(MeshContent, X3dCoordinatesWithoutAName) {
+  const auto of = [](const std::string& triangles) {
+    return "<X3D><Scene><Shape><IndexedFaceSet coordIndex='0 1 2 -1 0 2 3'>"
+           "<Coordinate point='0 0 0 1 0 0 1 2 0 0 2 0'/></IndexedFaceSet></Shape>"
+           "<Shape><TriangleSet><Coordinate point='" +
+           triangles + "'/></TriangleSet></Shape></Scene></X3D>";
+  };
+  EXPECT_EQ(read("a.x3d", of("0 0 1 1 0 1 0 2 1")).mesh.triangles.size(), 3u);
+  EXPECT_THAT(complaint("a.x3d", of("0 0 1 1 0 1 0 2 1 5 5 5")),
+              HasSubstr("make no whole triangles"));
+}
+
+TEST_F(MeshContent, SecondRoots) {
+  const std::string scene =
+      "<X3D><Scene><Shape><IndexedFaceSet coordIndex='0 1 2'><Coordinate point='0 0 0 1 0 0 0 2 "
+      "0'/>"
+      "</IndexedFaceSet></Shape></Scene></X3D>";
+  EXPECT_EQ(complaint("a.x3d", scene + "\n" + scene),
+            "a.x3d:2: <X3D> is a second root; the file needs one root, <X3D>");
+  EXPECT_EQ(complaint("a.x3d", "<x/>\n" + scene),
+            "a.x3d:1: <x> is the root; the file needs one root, <X3D>");
+  const std::string part = amfOf("1", volume());
+  EXPECT_EQ(complaint("a.amf", part + "<x/>", inMetres),
+            "a.amf:3: <x> is a second root; the file needs one root, <amf>");
+}
+
+/// assimp finds no ear of this polygon, and leaves out two of its triangles.
+TEST_F(MeshContent, ColladaPolygonsThatAssimpCutsWrongly) {
+  const auto of = [](const std::string& order) {
+    return R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
+<source id="s"><float_array id="a" count="30">.3 .9 0 .3 .3 0 0 0 0 1.5 0 0 1.4 .3 0 1.4 1 0 1.2 1 0
+1.2 .3 0 .9 .3 0 .9 .9 0</float_array><technique_common><accessor source="#a" count="10" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>
+</technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/>)" +
+           order + R"(</polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>)";
+  };
+  EXPECT_EQ(complaint("a.dae", of("<vcount>10</vcount><p>0 1 2 3 4 5 6 7 8 9</p>")),
+            "a.dae: assimp can't cut a concave polygon into triangles; triangulate the mesh before "
+            "it is saved");
+  EXPECT_EQ(complaint("a.dae", of("<vcount>6</vcount><p>3 4 5 6 7 2</p>")), "no complaint");
+}
+
 TEST_F(MeshContent, X3dAttributesThatAreUnknown) {
   const auto notes = [&](const std::string& group, const std::string& set = "") {
     const std::string name = group.substr(0, group.find(' '));

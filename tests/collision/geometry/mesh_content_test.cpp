@@ -66,8 +66,8 @@ TEST_F(Gltf, OptionalExtensions) {
 }
 
 TEST_F(Gltf, ExtensionsOfBinaryFiles) {
-  const auto binary = [](std::string json) {
-    json.erase(json.find("\"uri\": \"a.bin\", "), 16);
+  const auto binary = [](std::string json, bool hasUri = false) {
+    if (!hasUri) json.erase(json.find("\"uri\": \"a.bin\", "), 16);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const auto size = static_cast<std::uint32_t>(json.size());
     std::string corners;
@@ -76,6 +76,9 @@ TEST_F(Gltf, ExtensionsOfBinaryFiles) {
            bytesOf(std::uint32_t{36}) + std::string("BIN\0", 4) + corners;
   };
   EXPECT_EQ(read("a.glb", binary(gltf())).mesh.triangles.size(), 1u);
+  EXPECT_EQ(complaint("a.glb", binary(gltf(), true)),
+            "a.glb: the first buffer has a uri, but the file has data of its own, and assimp drops "
+            "one; keep one");
   EXPECT_EQ(complaint("a.glb", binary(gltf(R"(, "extensionsRequired": ["FOO_bar"])"))),
             "a.glb: the required extension \"FOO_bar\" is not supported; save the mesh without it");
 }
@@ -224,6 +227,49 @@ TEST_F(Gltf, BytesBetweenElements) {
   for (const std::string bytes : {"4", "8", "11"})
     EXPECT_EQ(strided(bytes, "", false),
               "a.gltf: the byteStride of POSITION is " + bytes + "; at least 12 is needed");
+}
+
+TEST_F(Gltf, ElementsBeyondTheirData) {
+  const std::string positions =
+      "the elements of POSITION lie beyond the byteLength of their bufferView";
+  EXPECT_EQ(fault(with(gltf(), "\"count\": 3", "\"count\": 3, \"byteOffset\": 4")), positions);
+  EXPECT_EQ(fault(with(gltf(), "\"count\": 3", "\"count\": 6")), positions);
+  EXPECT_EQ(fault(with(gltf(), "\"byteLength\": 36}],\n\"acc", "\"byteLength\": 35}],\n\"acc")),
+            positions);
+  EXPECT_EQ(fault(with(gltf(), "\"byteLength\": 36}],\n\"acc",
+                       "\"byteOffset\": 4, \"byteLength\": 36}],\n\"acc")),
+            "the bufferView of POSITION lies beyond the byteLength of its buffer");
+  const auto sparse = [&](const std::string& count, const std::string& indices) {
+    return fault(with(gltf(), "\"VEC3\"",
+                      "\"VEC3\", \"sparse\": {\"count\": " + count + ", \"indices\": {" + indices +
+                          R"("componentType": 5121}, "values": {"bufferView": 0}})"));
+  };
+  EXPECT_EQ(sparse("3", R"("bufferView": 0, )"), "no complaint");
+  EXPECT_EQ(sparse("4", R"("bufferView": 0, )"), positions);
+  EXPECT_EQ(sparse("1", R"("bufferView": 0, "byteOffset": 36, )"), positions);
+  EXPECT_EQ(sparse("1", ""),
+            "a sparse accessor of POSITION needs indices and values, each with a bufferView");
+}
+
+TEST_F(Gltf, NumbersOutOfRange) {
+  EXPECT_EQ(fault(gltf(R"(, "extras": 1e999)")), "no valid JSON: a number is out of range");
+}
+
+TEST_F(Gltf, TransformsOfVersion1) {
+  const auto of = [&](const std::string& node) {
+    return fault(R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n"]}},
+"nodes": {"n": {"meshes": ["m"])" +
+                 node + R"(}}, "meshes": {"m": {"primitives": [{"attributes": {"POSITION": "a"}}]}},
+"buffers": {"b": {"uri": "a.bin", "byteLength": 36, "type": "arraybuffer"}},
+"bufferViews": {"v": {"buffer": "b", "byteOffset": 0, "byteLength": 36}},
+"accessors": {"a": {"bufferView": "v", "byteOffset": 0, "componentType": 5126, "count": 3,
+"type": "VEC3"}}})");
+  };
+  const auto order = StartsWith("a node of glTF 1.0 has a translation and a rotation or scale");
+  EXPECT_EQ(of(R"(, "translation": [1, 0, 0])"), "no complaint");
+  EXPECT_EQ(of(R"(, "scale": [2, 2, 2])"), "no complaint");
+  EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "scale": [2, 2, 2])"), order);
+  EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "rotation": [0, 0, 0, 1])"), order);
 }
 
 TEST_F(Gltf, DataThatAreNotBase64) {

@@ -75,7 +75,7 @@ TEST_P(RandomEdges, FreeOnesAreProved) {
   const auto data = test::dataFolder();
   if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to the folder of shared test data";
   Random random(test::testSeed(6));
-  const int perScene = test::casesOf(2, 200);
+  const int perScene = test::casesOf(4, 200);
   Tally tally;
   for (const char* scene : {"bookshelf_thin", "box", "cage", "table_pick", "table_under_pick"}) {
     const int index = std::uniform_int_distribution(1, 50)(random);
