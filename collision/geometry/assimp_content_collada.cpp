@@ -127,7 +127,8 @@ class ColladaCheck : public XmlCheck {
         fault(tag.line, "two elements <source> of one <mesh> have the id \"" +
                             std::string(source_) + "\"; give each an id of its own");
     }
-    if (tag.name.ends_with("_array") && around(0) == "source" &&
+    if (tag.name.ends_with("_array") && around(0) == "source" && around(1) == "mesh" &&
+        tag.find("id") &&
         !arrays_
              .try_emplace(tag.value("id"),
                           tag.name == "float_array" ? wholeNumberIn(tag.value("count")) : 0)

@@ -193,7 +193,13 @@ class FbxCheck {
 }  // namespace
 
 void checkFbx(const std::string& file, std::string_view text, ContentReport& report) {
-  if (!text.starts_with("Kaydara FBX Binary")) FbxCheck(file, text, report).run();
+  if (text.starts_with("Kaydara FBX Binary"))
+    report.note(
+        "a binary FBX file is not searched for parts that are there twice or transforms that "
+        "assimp "
+        "does not apply; a text file is");
+  else
+    FbxCheck(file, text, report).run();
 }
 
 }  // namespace corridor

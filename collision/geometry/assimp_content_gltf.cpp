@@ -229,10 +229,13 @@ class GltfCheck {
   void requireInView(const std::string& name, const Json& part, std::uint64_t count,
                      std::uint64_t size) {
     const Json* const view = at(member(root_, "bufferViews"), member(part, "bufferView"));
-    if (!view || count == 0) return;
+    if (!view || count == 0 || count > kMostInteger) return;
+    for (const Json* const number : {&member(part, "byteOffset"), &member(*view, "byteOffset"),
+                                     &member(*view, "byteLength"), &member(*view, "byteStride")})
+      if (!number->is_null() && !isInteger(*number)) return;  // a fault of requireIntegers
     const std::uint64_t stride = std::max(
         {unsignedOf(member(part, "byteStride")), unsignedOf(member(*view, "byteStride")), size});
-    // All numbers are below 2^31 (requireIntegers), so that nothing overflows.
+    // All numbers are below 2^31, so that nothing overflows.
     const Json& length = member(*view, "byteLength");
     if (!length.is_null() &&
         unsignedOf(member(part, "byteOffset")) + stride * (count - 1) + size > unsignedOf(length))

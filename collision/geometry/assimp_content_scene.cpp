@@ -124,7 +124,7 @@ void checkScene(const aiScene& scene, const std::string& file, SceneKind kind,
   if (kind == SceneKind::Fbx)
     report.note(
         "an FBX file is not searched for geometry that no model uses and properties of unusual "
-        "types, which are not read; a binary one is not searched for anything else either");
+        "types, which are not read");
 }
 
 }  // namespace corridor

@@ -27,7 +27,11 @@ constexpr XmlRules kX3d{
     "",
     "",
     " Scene Coordinate ",
-    ""};
+    " Shape/Scene Shape/Group Shape/StaticGroup Shape/Transform "
+    "Transform/Scene Transform/Group Transform/StaticGroup Transform/Transform "
+    "Group/Scene Group/Group Group/StaticGroup Group/Transform "
+    "StaticGroup/Scene StaticGroup/Group StaticGroup/StaticGroup StaticGroup/Transform "
+    "Inline/Scene Inline/Group Inline/StaticGroup Inline/Transform "};
 
 /// The attributes of the elements that hold or move geometry, by the standard (X3D 4.0); those of
 /// all elements are under "".

@@ -135,14 +135,11 @@ void XmlCheck::run() {
     }
     if (isFirst && tag->name != rules_.root) {
       // assimp may find the root behind it.
-      if (text_.find('<' + std::string(rules_.root), tag->to) != text_.npos)
-        fault(tag->line, "<" + std::string(tag->name) + "> is the root" + second);
-      return malformed();
+      if (text_.find('<' + std::string(rules_.root), tag->to) == text_.npos) return malformed();
+      return fault(tag->line, "<" + std::string(tag->name) + "> is the root" + second);
     }
-    if (!isFirst && open_.empty()) {
-      fault(tag->line, "<" + std::string(tag->name) + "> is a second root" + second);
-      return malformed();
-    }
+    if (!isFirst && open_.empty())
+      return fault(tag->line, "<" + std::string(tag->name) + "> is a second root" + second);
     isFirst = false;
     if (!open_.empty()) open_.back().isEmpty = false;
     const bool isEmpty = std::exchange(tag->isEmpty, true);  // until a child comes

@@ -268,6 +268,16 @@ TEST_F(MeshContent, ColladaArraysThatAreThereTwice) {
               HasSubstr("two arrays of one <mesh> have the id \"pa\"; give each an id of its own"));
 }
 
+TEST_F(MeshContent, ColladaArraysOutsideOfMeshes) {
+  const std::string source = "<source id=\"i\"><float_array count=\"1\">0</float_array></source>",
+                    other = "<source id=\"o\"><float_array count=\"1\">0</float_array></source>";
+  std::string text = colladaWith("");
+  const std::string library = "<library_geometries>";
+  text.insert(text.find(library), "<library_animations><animation id=\"n\">" + source + other +
+                                      "</animation></library_animations>");
+  EXPECT_EQ(complaint("a.dae", text), "no complaint");
+}
+
 TEST_F(MeshContent, ColladaPhysicsIsNoted) {
   const std::string physics =
       "<library_physics_models><physics_model id='p'><rigid_body sid='r'><technique_common><shape>"
@@ -297,6 +307,22 @@ TEST_F(MeshContent, X3dCoordinatesWithoutAName) {
   EXPECT_EQ(read("a.x3d", of("0 0 1 1 0 1 0 2 1")).mesh.triangles.size(), 3u);
   EXPECT_THAT(complaint("a.x3d", of("0 0 1 1 0 1 0 2 1 5 5 5")),
               HasSubstr("make no whole triangles"));
+}
+
+TEST_F(MeshContent, X3dShapesWhereAssimpDropsThem) {
+  const auto of = [&](const std::string& around) {
+    return complaint("a.x3d",
+                     "<X3D><Scene><" + around +
+                         "><Shape><IndexedFaceSet coordIndex='0 1 2'>"
+                         "<Coordinate point='0 0 0 1 0 0 0 2 0'/></IndexedFaceSet></Shape></" +
+                         around + "></Scene></X3D>");
+  };
+  for (const std::string around : {"Group", "StaticGroup", "Transform"})
+    EXPECT_EQ(of(around), "no complaint");
+  for (const std::string around : {"WorldInfo", "Viewpoint", "NavigationInfo", "Fog"})
+    EXPECT_EQ(
+        of(around),
+        "a.x3d:1: <Shape> may be or move geometry, and assimp does not read it rightly" + instead);
 }
 
 TEST_F(MeshContent, SecondRoots) {
