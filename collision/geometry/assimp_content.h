@@ -73,7 +73,7 @@ std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& fol
 /// @param hasOwnData whether the file, a binary one, has the data of its first buffer
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
                bool hasOwnData = false);
-/// Does nothing for binary files.
+/// Adds a note for binary files, and does not search them.
 void checkFbx(const std::string& file, std::string_view text, ContentReport& report);
 void checkXml(ContentKind kind, const std::string& file, std::string_view text,
               ContentReport& report);
