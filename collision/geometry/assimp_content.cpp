@@ -46,8 +46,8 @@ void checkContent(ContentKind kind, const std::string& file, std::string_view by
   std::uint32_t size = 0;
   if (bytes.size() < 20) return;
   std::memcpy(&size, bytes.data() + 12, sizeof size);
-  // A second part has the data of the first buffer.
-  checkGltf(file, bytes.substr(20, size), report, bytes.size() > std::size_t{20} + size);
+  const std::string_view json = bytes.substr(20, size);
+  checkGltf(file, json, report, bytes.size() - 20 - json.size());
 }
 
 }  // namespace corridor

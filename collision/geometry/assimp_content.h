@@ -70,9 +70,11 @@ bool isReadRightly(std::string_view word, double value, double largest);
 std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& folder);
 
 /// The parts of `checkContent`.
-/// @param hasOwnData whether the file, a binary one, has the data of its first buffer
+/// @param body the number of bytes behind the JSON of a binary file
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
-               bool hasOwnData = false);
+               std::optional<std::size_t> body = {});
+/// Returns whether a property of FBX may move geometry, by its name.
+bool movesGeometryOfFbx(std::string_view property);
 /// Adds a note for binary files, and does not search them.
 void checkFbx(const std::string& file, std::string_view text, ContentReport& report);
 void checkXml(ContentKind kind, const std::string& file, std::string_view text,

@@ -1,6 +1,7 @@
 // The text form of FBX. The binary form is not searched.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "collision/geometry/assimp_content_xml.h"
@@ -22,10 +23,6 @@ constexpr std::string_view kProperties =
     "ScalingPivot,PreRotation,PostRotation,Lcl Translation,Lcl Rotation,Lcl Scaling,"
     "GeometricTranslation,GeometricRotation,GeometricScaling,";
 
-bool isProperty(std::string_view name) {
-  return kProperties.find("," + std::string(name) + ",") != std::string_view::npos;
-}
-
 /// Reads the elements "key: value, value { elements }" of a file. Faults of syntax are left to
 /// assimp.
 class FbxCheck {
@@ -35,8 +32,9 @@ class FbxCheck {
 
   void run() {
     // assimp ends at a NUL, and takes a form feed for the end of a line.
-    if (text_.find_first_of(std::string_view("\0\f\v", 3)) != text_.npos)
-      fault(0, "a character that text doesn't have: NUL, form feed or vertical tab" + kEnds);
+    if (const auto place = text_.find_first_of(std::string_view("\0\f\v", 3)); place != text_.npos)
+      fault(1 + static_cast<int>(std::count(text_.begin(), text_.begin() + place, '\n')),
+            "a character that text doesn't have: NUL, form feed or vertical tab; remove it");
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '"') {
@@ -50,7 +48,7 @@ class FbxCheck {
         ++at_;
       } else if (c == '}') {
         finish();
-        if (open_.empty()) return fault(line_, "a } without a {, where assimp ends" + kEnds);
+        if (open_.empty()) return fault(line_, "a } without a {, where assimp ends; remove it");
         element_ = std::move(open_.back());
         open_.pop_back();
         finish();
@@ -69,6 +67,7 @@ class FbxCheck {
       }
     }
     finish();
+    checkSkipped();
   }
 
  private:
@@ -78,8 +77,6 @@ class FbxCheck {
     int line = 0;
     std::set<std::string> single;  // what is in the element, and may be in it once
   };
-
-  inline static const std::string kEnds = "; remove it";
 
   static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -114,14 +111,16 @@ class FbxCheck {
   void finish() {
     const std::string_view name = element_.key == "a" ? around() : element_.key;
     if (name == "Vertices") checkNumbers(element_.values, name);
+    if (name == "Vertices" && element_.key == "a") addExtent();
     if (name == "PolygonVertexIndex") checkCorners();
     if (name == "P" && around() == "Properties70" && element_.values.size() > 4 &&
-        isProperty(element_.values[0])) {
+        movesGeometryOfFbx(element_.values[0])) {
       requireFirst(std::string(element_.values[0]));
       const std::vector<std::string_view> numbers(element_.values.begin() + 4,
                                                   element_.values.end());
       checkNumbers(numbers, element_.values[0]);
-      checkSize(numbers, element_.values[0]);
+      if (element_.values[0] == "UnitScaleFactor") checkUnit(numbers);
+      if (numbers.size() >= 3) checkIsApplied(numbers, element_.values[0]);
     }
     element_ = {};
   }
@@ -144,25 +143,58 @@ class FbxCheck {
     }
   }
 
-  /// Checks a property of a size that assimp does not apply: a unit that is not positive, and a
-  /// transform so near the identity that the square of the difference is at most 2^-23.
-  void checkSize(const std::vector<std::string_view>& words, std::string_view name) {
-    if (name == "UnitScaleFactor" && !(words.size() == 1 && numberIn(words[0]) > 0))
-      return fault(element_.line, "UnitScaleFactor is not a number above 0");
-    if (words.size() != 3) return;                              // not a vector
-    const double identity = name.ends_with("Scaling") ? 1 : 0;  // a scale
-    double square = 0;
-    for (const std::string_view word : words)
-      square += (numberIn(word) - identity) * (numberIn(word) - identity);
-    if (!(square > 0)) return;
-    constexpr double kIgnored = 0x1p-23 * 1.001;  // with the roundings of assimp's sum in floats
-    constexpr double kNoise = 1e-9;  // programs write such numbers for 0; they are noted
-    if (square <= kNoise * kNoise)
-      report_.note("transforms of FBX within 1e-9 of the identity are not applied");
-    else if (square <= kIgnored)
-      fault(element_.line, std::string(name) +
-                               " is so near the identity that assimp does not apply it; apply it "
-                               "in the modeller, or remove it");
+  void addExtent() {
+    double largest = 0;
+    for (const std::string_view word : element_.values)
+      if (const double number = numberIn(word); !std::isnan(number))
+        largest = std::max(largest, std::abs(number));
+    extent_ = std::min(extent_, largest);
+  }
+
+  /// Checks that the unit is positive. assimp drops others.
+  void checkUnit(const std::vector<std::string_view>& words) {
+    if (!words.empty() && numberIn(words[0]) <= 0)
+      fault(element_.line,
+            "UnitScaleFactor is not above 0; write the length of a unit in centimetres");
+  }
+
+  /// Checks that assimp applies a transform of three numbers. It skips those whose difference from
+  /// the identity has a square of at most 2^-23 in floats.
+  void checkIsApplied(const std::vector<std::string_view>& words, std::string_view name) {
+    // The float of a scale near 1 is off by 2^-24, which is 1.73e-4 of the limit's root, 2^-11.5.
+    // Three components make at most sqrt(3) of that, and the square twice: 6.0e-4. The sum's own
+    // roundings are below 1e-6.
+    constexpr double kMostSkipped = 0x1p-23 * 1.001;
+    const bool isScale = name.ends_with("Scaling"), isTurn = name.ends_with("Rotation");
+    double square = 0, least = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double number = numberIn(words[i]), difference = number - (isScale ? 1 : 0);
+      square += difference * difference;
+      least = std::min(least, std::abs(number));
+    }
+    if (isScale) scales_ *= least;
+    if (!(square > 0 && square <= kMostSkipped)) return;
+    // Scales and turns (in degrees) of a rounding of floats move a vertex by that share of its
+    // distance, which is the precision of all that assimp reads.
+    constexpr double kRounding = 0x1p-23;
+    const double size = std::sqrt(square);
+    if (isScale ? size <= kRounding : isTurn && size <= kRounding * 180 / std::numbers::pi)
+      report_.note(kNoteOnSkipped);
+    else
+      skipped_.push_back({element_.line, std::string(name), isScale || isTurn ? HUGE_VAL : size});
+  }
+
+  /// Adds faults for the transforms that assimp skips and that are no roundings. A length is one if
+  /// it is below the rounding to floats of each geometry's largest coordinate, also after all of
+  /// the file's scales that are below 1.
+  void checkSkipped() {
+    for (const auto& [line, name, size] : skipped_)
+      if (size <= 0x1p-24 * extent_ * scales_)
+        report_.note(kNoteOnSkipped);
+      else
+        fault(line, name +
+                        " is so near the identity that assimp does not apply it; apply it in the "
+                        "modeller, or write the identity");
   }
 
   /// Checks the corners of polygons, of which the last has a negative number.
@@ -188,16 +220,30 @@ class FbxCheck {
   Element element_;            // the current one
   std::vector<Element> open_;  // those around it
   std::set<std::string> single_;
+
+  struct Skipped {
+    int line;
+    std::string name;
+    double size;
+  };
+  static constexpr const char* kNoteOnSkipped =
+      "transforms of FBX that differ from the identity by roundings only are not applied";
+  std::vector<Skipped> skipped_;  // the transforms that assimp does not apply
+  double extent_ = HUGE_VAL;      // the least of the geometries' largest coordinates
+  double scales_ = 1;             // the product of the scales below 1
 };
 
 }  // namespace
 
+bool movesGeometryOfFbx(std::string_view property) {
+  return kProperties.find("," + std::string(property) + ",") != kProperties.npos;
+}
+
 void checkFbx(const std::string& file, std::string_view text, ContentReport& report) {
   if (text.starts_with("Kaydara FBX Binary"))
     report.note(
-        "a binary FBX file is not searched for parts that are there twice or transforms that "
-        "assimp "
-        "does not apply; a text file is");
+        "a binary FBX file is not searched for parts that are there twice, or transforms that "
+        "assimp does not apply; a text file is");
   else
     FbxCheck(file, text, report).run();
 }

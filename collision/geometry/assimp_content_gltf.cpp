@@ -61,15 +61,16 @@ std::optional<Json> parse(const std::string& file, std::string_view text, Conten
   } catch (const Json::parse_error& error) {
     report.fault(file, 0, "no valid JSON at byte " + std::to_string(error.byte));
   } catch (const Json::exception&) {  // a number beyond the doubles
-    report.fault(file, 0, "no valid JSON: a number is out of range");
+    report.fault(file, 0, "no valid JSON: a number is beyond the range of doubles; correct it");
   }
   return std::nullopt;
 }
 
 class GltfCheck {
  public:
-  GltfCheck(const std::string& file, const Json& root, ContentReport& report)
-      : file_(file), root_(root), report_(report) {}
+  GltfCheck(const std::string& file, const Json& root, ContentReport& report,
+            std::optional<std::size_t> body)
+      : file_(file), root_(root), report_(report), body_(body) {}
 
   void run() {
     for (const Json& name : member(root_, "extensionsRequired"))
@@ -191,10 +192,8 @@ class GltfCheck {
           fault("the mode of a primitive is " + mode.dump() + "; 0 to 6 is needed");
         requireReference(at(primitive, "indices"), "indices", "accessors");
         requireReference(at(member(primitive, "attributes"), "POSITION"), "POSITION", "accessors");
-        checkStride("POSITION", member(member(primitive, "attributes"), "POSITION"));
-        checkStride("indices", member(primitive, "indices"));
-        checkRange("POSITION", member(member(primitive, "attributes"), "POSITION"));
-        checkRange("indices", member(primitive, "indices"));
+        checkAccessor("POSITION", member(member(primitive, "attributes"), "POSITION"), 3);
+        checkAccessor("indices", member(primitive, "indices"), 1);
       }
     }
   }
@@ -209,68 +208,71 @@ class GltfCheck {
     return kind == 5120 || kind == 5121 ? 1 : kind == 5122 || kind == 5123 ? 2 : 4;
   }
 
-  /// Checks that the elements of an accessor lie in its view, and the view in its buffer: assimp
-  /// would read other memory.
-  void checkRange(const std::string& name, const Json& key) {
-    const Json* const accessor = at(member(root_, "accessors"), key);
-    if (!accessor) return;
-    const std::uint64_t size = (name == "POSITION" ? 3 : 1) * bytesOf(*accessor);
-    const std::uint64_t count = unsignedOf(member(*accessor, "count"));
-    requireInView(name, *accessor, count, size);
-    const Json& sparse = member(*accessor, "sparse");
-    if (!sparse.is_object()) return;
-    const Json &indices = member(sparse, "indices"), &values = member(sparse, "values");
-    const std::uint64_t few = unsignedOf(member(sparse, "count"));
-    if (member(indices, "bufferView").is_null() || member(values, "bufferView").is_null())
-      fault("a sparse accessor of " + name + " needs indices and values, each with a bufferView");
-    requireInView(name, indices, few, bytesOf(indices));
-    requireInView(name, values, few, size);
+  /// Returns the view of an accessor, or of a part of one; null if there is none.
+  const Json* viewOf(const Json& part) const {
+    return at(member(root_, "bufferViews"), member(part, "bufferView"));
   }
-  void requireInView(const std::string& name, const Json& part, std::uint64_t count,
-                     std::uint64_t size) {
-    const Json* const view = at(member(root_, "bufferViews"), member(part, "bufferView"));
-    if (!view || count == 0 || count > kMostInteger) return;
-    for (const Json* const number : {&member(part, "byteOffset"), &member(*view, "byteOffset"),
-                                     &member(*view, "byteLength"), &member(*view, "byteStride")})
-      if (!number->is_null() && !isInteger(*number)) return;  // a fault of requireIntegers
-    const std::uint64_t stride = std::max(
-        {unsignedOf(member(part, "byteStride")), unsignedOf(member(*view, "byteStride")), size});
-    // All numbers are below 2^31, so that nothing overflows.
-    const Json& length = member(*view, "byteLength");
-    if (!length.is_null() &&
-        unsignedOf(member(part, "byteOffset")) + stride * (count - 1) + size > unsignedOf(length))
-      fault("the elements of " + name + " lie beyond the byteLength of their bufferView");
-    const Json* const buffer = at(member(root_, "buffers"), member(*view, "buffer"));
-    if (buffer && !member(*buffer, "byteLength").is_null() &&
-        unsignedOf(member(*view, "byteOffset")) + unsignedOf(length) >
-            unsignedOf(member(*buffer, "byteLength")))
-      fault("the bufferView of " + name + " lies beyond the byteLength of its buffer");
+  /// Returns the byteStride of an accessor, or of a part of one; 0 if there is none.
+  std::uint64_t strideOf(const Json& part) const {
+    const Json* const view = viewOf(part);
+    // Version 1 of glTF has it in the accessor.
+    return std::max(unsignedOf(member(part, "byteStride")),
+                    view ? unsignedOf(member(*view, "byteStride")) : 0);
   }
 
-  /// Checks the distance of an accessor's elements in bytes. assimp reads sparse accessors as
-  /// if there were no gaps.
-  void checkStride(const std::string& name, const Json& key) {
+  /// Checks where the elements of an accessor are. assimp reads sparse accessors as if there were
+  /// no gaps. @param components the numbers of an element
+  void checkAccessor(const std::string& name, const Json& key, std::uint64_t components) {
     const Json* const accessor = at(member(root_, "accessors"), key);
     if (!accessor) return;
-    const auto strideOf = [&](const Json& part) -> std::uint64_t {
-      const Json* const view = at(member(root_, "bufferViews"), member(part, "bufferView"));
-      // Version 1 of glTF has it in the accessor.
-      return std::max(unsignedOf(member(part, "byteStride")),
-                      view ? unsignedOf(member(*view, "byteStride")) : 0);
-    };
-    const std::uint64_t bytes = bytesOf(*accessor);
-    const std::uint64_t size = name == "POSITION" ? 3 * bytes : bytes;
+    const std::uint64_t size = components * bytesOf(*accessor);
     const std::uint64_t stride = strideOf(*accessor);
     if (stride > 0 && stride < size)
       fault("the byteStride of " + name + " is " + std::to_string(stride) + "; at least " +
             std::to_string(size) + " is needed");
+    const std::string label = name + " (accessor " + key.dump() + ")";
+    requireInView(label, *accessor, unsignedOf(member(*accessor, "count")), size);
     const Json& sparse = member(*accessor, "sparse");
     if (!sparse.is_object()) return;
-    if ((stride > 0 && stride != size) || strideOf(member(sparse, "values")) > 0 ||
-        strideOf(member(sparse, "indices")) > 0)
+    const Json &indices = member(sparse, "indices"), &values = member(sparse, "values");
+    if ((stride > 0 && stride != size) || strideOf(values) > 0 || strideOf(indices) > 0)
       fault(
           "a sparse accessor of " + name +
           " has a byteStride, which assimp does not apply; save the mesh without sparse accessors");
+    if (member(indices, "bufferView").is_null() || member(values, "bufferView").is_null())
+      fault("a sparse accessor of " + name + " needs indices and values, each with a bufferView");
+    const std::uint64_t count = unsignedOf(member(sparse, "count"));
+    requireInView("the sparse indices of " + label, indices, count, bytesOf(indices));
+    requireInView("the sparse values of " + label, values, count, size);
+  }
+
+  /// Checks that elements of a size lie in their view, and the view in its buffer: assimp would
+  /// read other memory.
+  void requireInView(const std::string& name, const Json& part, std::uint64_t count,
+                     std::uint64_t size) {
+    const Json* const view = viewOf(part);
+    if (!view || count == 0 || count > kMostInteger) return;
+    for (const Json* const number :
+         {&member(part, "byteOffset"), &member(part, "byteStride"), &member(*view, "byteOffset"),
+          &member(*view, "byteLength"), &member(*view, "byteStride")})
+      if (!number->is_null() && !isInteger(*number)) return;  // a fault of requireIntegers
+    // All numbers are below 2^31, so that nothing overflows.
+    const std::uint64_t end = unsignedOf(member(part, "byteOffset")) +
+                              std::max(strideOf(part), size) * (count - 1) + size;
+    const Json& length = member(*view, "byteLength");
+    if (!length.is_null() && end > unsignedOf(length))
+      fault("the elements of " + name +
+            " lie beyond the byteLength of their bufferView; correct count, byteOffset or "
+            "byteLength");
+    const Json* const buffer = at(member(root_, "buffers"), member(*view, "buffer"));
+    if (!buffer || member(*buffer, "byteLength").is_null()) return;
+    std::uint64_t bytes = unsignedOf(member(*buffer, "byteLength"));
+    // Of a binary file of version 1, this buffer is the body, whatever its byteLength.
+    if (body_ && member(*view, "buffer") == "binary_glTF")
+      bytes = std::min(bytes, std::uint64_t{*body_});
+    if (unsignedOf(member(*view, "byteOffset")) + unsignedOf(length) > bytes)
+      fault("the bufferView of " + name +
+            " lies beyond the byteLength of its buffer; correct its byteOffset or byteLength");
   }
 
   /// Checks the data in the file. assimp takes characters that Base64 does not have for zeros.
@@ -301,7 +303,7 @@ class GltfCheck {
   void checkData() {
     for (const Json& accessor : member(root_, "accessors")) {
       checkKeys(accessor, {"bufferView", "byteOffset", "componentType", "count", "type", "sparse"});
-      requireIntegers(accessor, {"byteOffset", "componentType", "count"});
+      requireIntegers(accessor, {"byteOffset", "byteStride", "componentType", "count"});
       requireReference(at(accessor, "bufferView"), "bufferView", "bufferViews");
       const Json* const sparse = at(accessor, "sparse");
       if (!sparse) continue;
@@ -317,6 +319,11 @@ class GltfCheck {
       requireIntegers(view, {"byteOffset", "byteLength", "byteStride"});
       requireReference(at(view, "buffer"), "buffer", "buffers");
     }
+  }
+
+  /// Returns whether an object has a key with another value than the given one.
+  static bool isOther(const Json& object, const char* key, const Json& value) {
+    return !member(object, key).is_null() && member(object, key) != value;
   }
 
   /// Checks nodes and scenes. assimp does not normalise rotations.
@@ -339,9 +346,9 @@ class GltfCheck {
       bool hasParts = false;
       for (const char* const part : {"translation", "rotation", "scale"})
         hasParts |= !member(node, part).is_null();
-      // assimp moves before it turns and scales nodes of version 1.
-      if (nodes.is_object() && !member(node, "translation").is_null() &&
-          !(member(node, "rotation").is_null() && member(node, "scale").is_null()))
+      // assimp applies the translation of a node of version 1 first.
+      if (nodes.is_object() && isOther(node, "translation", {0, 0, 0}) &&
+          (isOther(node, "rotation", {0, 0, 0, 1}) || isOther(node, "scale", {1, 1, 1})))
         fault(
             "a node of glTF 1.0 has a translation and a rotation or scale, which assimp applies "
             "in the wrong order; save the mesh as glTF 2.0");
@@ -420,20 +427,21 @@ class GltfCheck {
   const std::string& file_;
   const Json& root_;
   ContentReport& report_;
-  std::set<std::string> required_;  // extensions that are not supported
+  const std::optional<std::size_t> body_;  // the bytes behind the JSON of a binary file
+  std::set<std::string> required_;         // extensions that are not supported
 };
 
 }  // namespace
 
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
-               bool hasOwnData) {
+               std::optional<std::size_t> body) {
   if (const auto root = parse(file, json, report)) {
-    GltfCheck(file, *root, report).run();
+    GltfCheck(file, *root, report, body).run();
     const Json* const first = at(member(*root, "buffers"), Json(0u));
-    if (hasOwnData && first && !member(*first, "uri").is_null())
+    if (body && first && !member(*first, "uri").is_null())
       report.fault(file, 0,
-                   "the first buffer has a uri, but the file has data of its own, and assimp drops "
-                   "one; keep one");
+                   "assimp does not read the uri of a GLB file's first buffer; put the data into "
+                   "the file");
   }
 }
 

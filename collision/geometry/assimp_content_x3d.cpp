@@ -27,7 +27,9 @@ constexpr XmlRules kX3d{
     "",
     "",
     " Scene Coordinate ",
-    " Shape/Scene Shape/Group Shape/StaticGroup Shape/Transform "
+    " Scene/X3D Box/Shape ElevationGrid/Shape IndexedFaceSet/Shape IndexedTriangleSet/Shape "
+    "IndexedTriangleFanSet/Shape TriangleSet/Shape Shape/Scene Shape/Group Shape/StaticGroup "
+    "Shape/Transform "
     "Transform/Scene Transform/Group Transform/StaticGroup Transform/Transform "
     "Group/Scene Group/Group Group/StaticGroup Group/Transform "
     "StaticGroup/Scene StaticGroup/Group StaticGroup/StaticGroup StaticGroup/Transform "
@@ -204,8 +206,7 @@ class X3dCheck : public XmlCheck {
   /// Checks that the numbers of an attribute make whole triangles: assimp drops the others. The
   /// points of a <Coordinate> that is used again are those of its DEF.
   void checkTriangles(const XmlTag& tag, std::string_view attribute, std::size_t size) {
-    const std::string_view use = tag.value("USE");
-    const auto points = use.empty() ? points_.end() : points_.find(use);
+    const auto points = points_.find(tag.value("USE"));
     const std::size_t count =
         points == points_.end() ? listedNumbers(tag.value(attribute)).size() : points->second;
     if (count % size != 0)
@@ -240,7 +241,7 @@ class X3dCheck : public XmlCheck {
   }
 
   std::set<std::string> unknown_;                   // attributes
-  std::map<std::string_view, std::size_t> points_;  // the numbers of <Coordinate>s by their DEF
+  std::map<std::string_view, std::size_t> points_;  // the numbers of each <Coordinate> with a DEF
 };
 
 }  // namespace

@@ -195,10 +195,25 @@ class DropLog : public Assimp::LogStream {
     for (const char* const sign :
          {"Unable to resolve reference to instanced node", "Unresolved reference format of node",
           "Unable to find geometry for ID", "long message discarded",
-          "encountered duplicate object id", "TRIANGLES mode. Some vertices were dropped",
-          "ignoring material assignments", "Unsupported RotationMode", "duplicate property name"})
+          "encountered duplicate object id", "TRIANGLES mode. Some vertices were dropped"})
       if (const auto at = text.find(sign); at != text.npos)
         report_.fault(file_, 0, "assimp leaves out geometry: " + text.substr(at));
+    if (text.find("ignoring material assignments") != text.npos)
+      report_.fault(file_, 0,
+                    "assimp may drop polygons because of how their materials are stored; give all "
+                    "polygons one material");
+    if (text.find("Unsupported RotationMode") != text.npos)
+      report_.fault(file_, 0,
+                    "assimp drops rotations of the order SphericXYZ; apply them in the modeller");
+    const std::string twice = "will hide previous value: ";
+    if (const auto at = text.find(twice); at != text.npos) {
+      std::string name = text.substr(at + twice.size());
+      name.resize(name.find_last_not_of(' ') + 1);
+      if (movesGeometryOfFbx(name))
+        report_.fault(
+            file_, 0,
+            "an object has the property \"" + name + "\" twice, and assimp drops one; remove one");
+    }
     if (text.find("Failed to triangulate polygon") != text.npos)
       report_.fault(
           file_, 0,

@@ -91,7 +91,7 @@ TEST_F(FbxText, WhereAssimpEnds) {
 TEST_F(FbxText, UnitsThatAreNotPositive) {
   for (const std::string unit : {"0", "-100"})
     EXPECT_EQ(fault(fbx(settings(property("UnitScaleFactor", unit)))),
-              "a.fbx:8: UnitScaleFactor is not a number above 0");
+              "a.fbx:8: UnitScaleFactor is not above 0; write the length of a unit in centimetres");
 }
 
 TEST_F(FbxText, TransformsThatAssimpDoesNotApply) {
@@ -107,12 +107,30 @@ TEST_F(FbxText, TransformsThatAssimpDoesNotApply) {
   for (const std::string value : {"0,0,0", "3.46e-4,0,0", "1,1,1", "1e-15,0,0"})
     EXPECT_EQ(of("Lcl Translation", value), "no complaint") << value;
   EXPECT_EQ(of("Lcl Scaling", "1,1,1"), "no complaint");
-  const auto note = Contains("transforms of FBX within 1e-9 of the identity are not applied");
-  const auto notes = [&](const std::string& value) {
-    return notesOf("a.fbx", fbx(settings(property("Lcl Translation", value))));
+  for (const std::string more : {",1", ",0,0"})  // assimp reads the first three numbers
+    EXPECT_THAT(of("Lcl Scaling", "1.0003,1,1" + more), small);
+
+  // Roundings of floats have a note: 2^-23 of scales and turns (6.83e-6 degrees), and 2^-24 of the
+  // geometry's largest coordinate, 2, times the scales below 1.
+  const auto note =
+      Contains("transforms of FBX that differ from the identity by roundings only are not applied");
+  const auto notes = [&](const std::string& name, const std::string& value,
+                         const std::string& scale = "1,1,1") {
+    return notesOf("a.fbx", fbx(settings(property(name, value) + property("Other", "1") +
+                                         property("GeometricScaling", scale))));
   };
-  EXPECT_THAT(notes("1e-15,0,0"), note);
-  EXPECT_THAT(notes("0,0,0"), Not(note));
+  EXPECT_THAT(notes("Lcl Translation", "1e-15,0,0"), note);
+  EXPECT_THAT(notes("Lcl Translation", "1.1e-7,0,0"), note);
+  EXPECT_THAT(notes("Lcl Translation", "0,0,0"), Not(note));
+  EXPECT_THAT(notes("Lcl Scaling", "0.999999940395355,1,1"), note);
+  EXPECT_THAT(notes("Lcl Rotation", "5.00895567e-06,0,0"), note);
+  EXPECT_THAT(of("Lcl Translation", "1.3e-7,0,0"), small);
+  EXPECT_THAT(of("RotationPivot", "1.3e-7,0,0"), small);
+  EXPECT_THAT(of("Lcl Scaling", "0.9999998,1,1"), small);
+  EXPECT_THAT(of("Lcl Rotation", "6.9e-6,0,0"), small);
+  EXPECT_THAT(fault(fbx(settings(property("Lcl Translation", "1.1e-7,0,0") +
+                                 property("GeometricScaling", "0.5,1,1")))),
+              small);
 }
 
 TEST_F(FbxText, ObjectsOfOneId) {

@@ -319,6 +319,11 @@ TEST_F(MeshContent, X3dShapesWhereAssimpDropsThem) {
   };
   for (const std::string around : {"Group", "StaticGroup", "Transform"})
     EXPECT_EQ(of(around), "no complaint");
+  EXPECT_THAT(complaint("a.x3d", "<X3D><Scene><Viewpoint><Box/></Viewpoint></Scene></X3D>"),
+              HasSubstr("<Box> may be or move geometry"));
+  EXPECT_THAT(
+      complaint("a.x3d", "<X3D><WorldInfo><Scene><Shape><Box/></Shape></Scene></WorldInfo></X3D>"),
+      HasSubstr("<Scene> may be or move geometry"));
   for (const std::string around : {"WorldInfo", "Viewpoint", "NavigationInfo", "Fog"})
     EXPECT_EQ(
         of(around),

@@ -76,9 +76,10 @@ TEST_F(Gltf, ExtensionsOfBinaryFiles) {
            bytesOf(std::uint32_t{36}) + std::string("BIN\0", 4) + corners;
   };
   EXPECT_EQ(read("a.glb", binary(gltf())).mesh.triangles.size(), 1u);
-  EXPECT_EQ(complaint("a.glb", binary(gltf(), true)),
-            "a.glb: the first buffer has a uri, but the file has data of its own, and assimp drops "
-            "one; keep one");
+  EXPECT_EQ(
+      complaint("a.glb", binary(gltf(), true)),
+      "a.glb: assimp does not read the uri of a GLB file's first buffer; put the data into the "
+      "file");
   EXPECT_EQ(complaint("a.glb", binary(gltf(R"(, "extensionsRequired": ["FOO_bar"])"))),
             "a.glb: the required extension \"FOO_bar\" is not supported; save the mesh without it");
 }
@@ -202,14 +203,16 @@ TEST_F(Gltf, WholeNumbersAndIndices) {
 
 /// assimp reads sparse accessors as if there were no gaps, and other ones with overlaps.
 TEST_F(Gltf, BytesBetweenElements) {
+  write("a.bin", std::string(48, '\0'));  // for gaps of four bytes
   // The positions are in the first view, and what a sparse accessor replaces is in the second.
   const auto strided = [&](const std::string& first, const std::string& second, bool isSparse) {
     const auto stride = [](const std::string& bytes) {
       return bytes.empty() ? "" : ", \"byteStride\": " + bytes;
     };
     const std::string text =
-        with(gltf(), "\"byteLength\": 36}],\n\"acc",
-             "\"byteLength\": 36" + stride(first) + "}, {\"buffer\": 0, \"byteLength\": 36" +
+        with(with(gltf(), "\"byteLength\": 36}],\n\"buf", "\"byteLength\": 48}],\n\"buf"),
+             "\"byteLength\": 36}],\n\"acc",
+             "\"byteLength\": 48" + stride(first) + "}, {\"buffer\": 0, \"byteLength\": 36" +
                  stride(second) + "}],\n\"acc");
     return complaint(
         "a.gltf", isSparse ? with(text, "\"VEC3\"",
@@ -220,7 +223,7 @@ TEST_F(Gltf, BytesBetweenElements) {
   const std::string gaps =
       "a.gltf: a sparse accessor of POSITION has a byteStride, which assimp does not apply; save "
       "the mesh without sparse accessors";
-  EXPECT_THAT(strided("16", "", true), StartsWith(gaps));  // and beyond the data
+  EXPECT_EQ(strided("16", "", true), gaps);
   EXPECT_EQ(strided("", "16", true), gaps);
   EXPECT_EQ(strided("12", "", true), "no complaint");
   EXPECT_EQ(strided("12", "16", false), "no complaint");
@@ -230,15 +233,20 @@ TEST_F(Gltf, BytesBetweenElements) {
 }
 
 TEST_F(Gltf, ElementsBeyondTheirData) {
-  const std::string positions =
-      "the elements of POSITION lie beyond the byteLength of their bufferView";
+  const auto beyond = [](const std::string& what) {
+    return "the elements of " + what + "POSITION (accessor 0) lie beyond the byteLength of their " +
+           "bufferView; correct count, byteOffset or byteLength";
+  };
+  const std::string positions = beyond("");
   EXPECT_EQ(fault(with(gltf(), "\"count\": 3", "\"count\": 3, \"byteOffset\": 4")), positions);
   EXPECT_EQ(fault(with(gltf(), "\"count\": 3", "\"count\": 6")), positions);
   EXPECT_EQ(fault(with(gltf(), "\"byteLength\": 36}],\n\"acc", "\"byteLength\": 35}],\n\"acc")),
             positions);
   EXPECT_EQ(fault(with(gltf(), "\"byteLength\": 36}],\n\"acc",
                        "\"byteOffset\": 4, \"byteLength\": 36}],\n\"acc")),
-            "the bufferView of POSITION lies beyond the byteLength of its buffer");
+            "the bufferView of POSITION (accessor 0) lies beyond the byteLength of its buffer; "
+            "correct its "
+            "byteOffset or byteLength");
   const auto sparse = [&](const std::string& count, const std::string& indices) {
     return complaint(
         "a.gltf", with(gltf(), "\"VEC3\"",
@@ -246,35 +254,65 @@ TEST_F(Gltf, ElementsBeyondTheirData) {
                            R"("componentType": 5121}, "values": {"bufferView": 0}})"));
   };
   EXPECT_EQ(sparse("3", R"("bufferView": 0, )"), "no complaint");
-  EXPECT_EQ(sparse("4", R"("bufferView": 0, )"), "a.gltf: " + positions);
-  EXPECT_EQ(sparse("1", R"("bufferView": 0, "byteOffset": 36, )"), "a.gltf: " + positions);
+  EXPECT_EQ(sparse("4", R"("bufferView": 0, )"), "a.gltf: " + beyond("the sparse values of "));
+  EXPECT_EQ(sparse("1", R"("bufferView": 0, "byteOffset": 36, )"),
+            "a.gltf: " + beyond("the sparse indices of "));
   EXPECT_EQ(
       sparse("1", ""),
       "a.gltf: a sparse accessor of POSITION needs indices and values, each with a bufferView");
 }
 
 TEST_F(Gltf, NumbersOutOfRange) {
-  EXPECT_EQ(fault(gltf(R"(, "extras": 1e999)")), "no valid JSON: a number is out of range");
+  EXPECT_EQ(fault(gltf(R"(, "extras": 1e999)")),
+            "no valid JSON: a number is beyond the range of doubles; correct it");
+}
+
+/// Returns a file of version 1. @param uri the buffer's name and address. @param stride of the
+/// accessor.
+std::string gltf1(const std::string& node, const std::string& name = "b",
+                  const std::string& uri = "a.bin", const std::string& stride = "12",
+                  const std::string& bytes = "36", const std::string& count = "3") {
+  return R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n"]}},
+"nodes": {"n": {"meshes": ["m"])" +
+         node + R"(}}, "meshes": {"m": {"primitives": [{"attributes": {"POSITION": "a"}}]}},
+"buffers": {")" +
+         name + R"(": {"uri": ")" + uri + R"(", "byteLength": )" + bytes +
+         R"(, "type": "arraybuffer"}},
+"bufferViews": {"v": {"buffer": ")" +
+         name + R"(", "byteOffset": 0, "byteLength": )" + bytes + R"(}},
+"accessors": {"a": {"bufferView": "v", "byteOffset": 0, "byteStride": )" +
+         stride + R"(, "componentType": 5126, "count": )" + count + R"(, "type": "VEC3"}}})";
 }
 
 TEST_F(Gltf, TransformsOfVersion1) {
-  const auto of = [&](const std::string& node) {
-    return complaint(
-        "a.gltf", R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n"]}},
-"nodes": {"n": {"meshes": ["m"])" +
-                      node +
-                      R"(}}, "meshes": {"m": {"primitives": [{"attributes": {"POSITION": "a"}}]}},
-"buffers": {"b": {"uri": "a.bin", "byteLength": 36, "type": "arraybuffer"}},
-"bufferViews": {"v": {"buffer": "b", "byteOffset": 0, "byteLength": 36}},
-"accessors": {"a": {"bufferView": "v", "byteOffset": 0, "componentType": 5126, "count": 3,
-"type": "VEC3"}}})");
-  };
-  const auto order =
-      StartsWith("a.gltf: a node of glTF 1.0 has a translation and a rotation or scale");
-  EXPECT_EQ(of(R"(, "translation": [1, 0, 0])"), "no complaint");
-  EXPECT_EQ(of(R"(, "scale": [2, 2, 2])"), "no complaint");
+  const auto of = [&](const std::string& node) { return complaint("a.gltf", gltf1(node)); };
+  const auto order = StartsWith("a.gltf: a node of glTF 1.0 has a translation and a rotation or");
+  for (const std::string node :
+       {R"(, "translation": [1, 0, 0])", R"(, "scale": [2, 2, 2])",
+        R"(, "translation": [1, 0, 0], "rotation": [0, 0, 0, 1], "scale": [1, 1, 1])",
+        R"(, "translation": [0, 0, 0], "rotation": [1, 0, 0, 0])"})
+    EXPECT_EQ(of(node), "no complaint") << node;
   EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "scale": [2, 2, 2])"), order);
-  EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "rotation": [0, 0, 0, 1])"), order);
+  EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "rotation": [1, 0, 0, 0])"), order);
+}
+
+TEST_F(Gltf, DataOfVersion1) {
+  for (const std::string stride : {"12.0", "9223372036854775808"})
+    EXPECT_THAT(complaint("a.gltf", gltf1("", "b", "a.bin", stride)),
+                StartsWith("a.gltf: \"byteStride\" is "));
+  // A binary file: the body is the buffer, whatever its byteLength.
+  const auto binary = [](std::string json) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto size = static_cast<std::uint32_t>(json.size());
+    return "glTF" + bytesOf(std::uint32_t{1}) + bytesOf(size + 56) + bytesOf(size) +
+           bytesOf(std::uint32_t{0}) + json + std::string(36, '\0');
+  };
+  const std::string used = R"(, "extensionsUsed": ["KHR_binary_glTF"]})";
+  std::string json = gltf1("", "binary_glTF", "data:;base64,", "12", "3600", "300");
+  json.pop_back();
+  EXPECT_EQ(complaint("a.glb", binary(json + used)),
+            "a.glb: the bufferView of POSITION (accessor \"a\") lies beyond the byteLength of its "
+            "buffer; correct its byteOffset or byteLength");
 }
 
 TEST_F(Gltf, DataThatAreNotBase64) {

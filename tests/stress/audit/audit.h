@@ -16,8 +16,8 @@ class Audit {
     bool states = false;     ///< make states: edges of zero length
     bool curves = false;     ///< make pieces of curves instead of edges
     bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
-    std::size_t verify = 5;  ///< the verifier runs on one case in this many, the checker on every
-                             ///< case. No factor of 6, so that all six gaps are verified
+    std::size_t verify = 6;  ///< the verifier runs on one case in this many, the checker on every
+                             ///< case
     std::optional<Family> family = {};  ///< the only family of edges; unset: all families in turn
     Mode mode = Mode::usual;            ///< floating-point mode while a query runs
   };

@@ -5,11 +5,18 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/support.h"
+
 namespace corridor::audit {
 namespace {
 
+/// One case in this many is verified. The short run has few cases of each family of edges.
+std::size_t casesPerVerified() {
+  return static_cast<std::size_t>(test::casesOf(2, 6));
+}
+
 TEST(Audit, Edges) {
-  Audit audit(1, {});
+  Audit audit(1, {.verify = casesPerVerified()});
   audit.run(countOf(450, 1'000'000));
   audit.report("edges");
   audit.expectDecided();
@@ -23,7 +30,7 @@ TEST(Audit, States) {
 }
 
 TEST(Audit, Curves) {
-  Audit audit(12, {.curves = true});
+  Audit audit(12, {.curves = true, .verify = casesPerVerified()});
   audit.run(countOf(420, 400'000));
   audit.report("curves");
   audit.expectDecided();
