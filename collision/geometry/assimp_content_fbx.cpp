@@ -112,6 +112,7 @@ class FbxCheck {
     const std::string_view name = element_.key == "a" ? around() : element_.key;
     if (name == "Vertices") checkNumbers(element_.values, name);
     if (name == "Vertices" && element_.key == "a") addExtent();
+    if (isListed(" Vertices PolygonVertexIndex ", name) && element_.key == "a") checkCount(name);
     if (name == "PolygonVertexIndex") checkCorners();
     if (name == "P" && around() == "Properties70" && element_.values.size() > 4 &&
         movesGeometryOfFbx(element_.values[0])) {
@@ -141,6 +142,17 @@ class FbxCheck {
       if (word.size() > kMostCharacters || !isReadRightly(word, number, largest))
         return fault(element_.line, start + '"' + kDigits);
     }
+  }
+
+  /// Checks that a list such as "Vertices: *3 { a: 0,0,0 }" has as many values as it says.
+  void checkCount(std::string_view name) {
+    const std::vector<std::string_view>& head = open_.back().values;
+    if (head.size() != 1 || !head[0].starts_with('*') ||
+        wholeNumberIn(head[0].substr(1)) == static_cast<long>(element_.values.size()))
+      return;
+    fault(element_.line, std::string(name) + " has " + std::to_string(element_.values.size()) +
+                             " values and says " + std::string(head[0].substr(1, 20)) +
+                             "; the file may be cut off, save it again");
   }
 
   void addExtent() {

@@ -68,17 +68,23 @@ TEST_F(FbxText, PartsThatAreThereTwice) {
 
 TEST_F(FbxText, CornersOfPolygons) {
   const auto with = [&](const std::string& corners) { return fault(changed("0,1,-3", corners)); };
-  EXPECT_EQ(with("0,1,-3,0,1,2"),
-            "a.fbx:14: the last polygon does not end, and assimp drops it; make its last corner "
-            "negative");
+  for (const std::string corners : {"0,1,-3,0,1,2", "0,1,-3,2,1,-0"})
+    EXPECT_EQ(fault(changed("*3 {\n   a: 0,1,-3", "*6 {\n   a: " + corners)),
+              "a.fbx:14: the last polygon does not end, and assimp drops it; make its last corner "
+              "negative");
   for (const std::string corners : {"0,1.0,-3", "0,4294967297,-3", "0,x,-3"})
     EXPECT_EQ(with(corners),
               "a.fbx:14: PolygonVertexIndex may have whole numbers only, with at most 31 bits");
 }
 
-TEST_F(FbxText, CornersThatEndNoPolygon) {
-  EXPECT_THAT(fault(changed("0,1,-3", "0,1,-3,2,1,-0")),
-              HasSubstr("the last polygon does not end"));
+TEST_F(FbxText, ListsOfAnotherLength) {
+  const std::string cut = "; the file may be cut off, save it again";
+  EXPECT_EQ(fault(changed("Vertices: *9", "Vertices: *12")),
+            "a.fbx:11: Vertices has 9 values and says 12" + cut);
+  EXPECT_EQ(fault(changed("PolygonVertexIndex: *3", "PolygonVertexIndex: *6")),
+            "a.fbx:14: PolygonVertexIndex has 3 values and says 6" + cut);
+  EXPECT_EQ(fault(changed("PolygonVertexIndex: *3", "PolygonVertexIndex: *x")),
+            "a.fbx:14: PolygonVertexIndex has 3 values and says x" + cut);
 }
 
 TEST_F(FbxText, WhereAssimpEnds) {
