@@ -9,8 +9,8 @@
 namespace corridor {
 namespace {
 
-Vec3 lifted(const Vec2& p, double z = 0) {
-  return {p.x(), p.y(), z};
+Vec3 lifted(const Vec2& p) {
+  return {p.x(), p.y(), 0};
 }
 
 bool isBefore(const Vec2& p, const Vec2& q) {
@@ -24,10 +24,6 @@ int rise(const ConvexPolygon& polygon, std::size_t i, const Vec3& direction) {
 }
 
 }  // namespace
-
-int lineSide(const Vec2& p, const Vec2& q, const Vec2& r) {
-  return planeSide(lifted(p), lifted(q), lifted(r), lifted(p, 1));
-}
 
 ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
   if (!std::all_of(points.begin(), points.end(), [](const Vec2& p) { return p.allFinite(); }))

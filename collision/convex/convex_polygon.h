@@ -6,16 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include "collision/predicates/orientation.h"
 
 namespace corridor {
-
-using Vec2 = Eigen::Vector2d;
-
-/// Returns 1 if r is left of the line from p to q, −1 if it is right of the line, 0 if it is on the
-/// line. Exact.
-/// @pre all coordinates are finite.
-int lineSide(const Vec2& p, const Vec2& q, const Vec2& r);
 
 /// A convex polygon: the hull of its vertices, counterclockwise. Every vertex is an extreme point,
 /// in real arithmetic on the stored doubles. (Under denormals-are-zero, subnormal coordinates count

@@ -50,8 +50,9 @@ Eigen::Affine3d inDoubles(const aiMatrix4x4& m) {
   return map;
 }
 
-/// Adds a mesh of the scene. Sets `hasLines` if the mesh has lines or points.
-void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to, bool& hasLines) {
+/// Adds a mesh of the scene; polygons become fans. Sets `hasLines` if the mesh has lines or points.
+void addMesh(const aiMesh& from, const Eigen::Affine3d& map, AssimpImport& import, bool& hasLines) {
+  TriangleMesh& to = import.mesh;
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   for (unsigned i = 0; i < from.mNumVertices; ++i) {
     const aiVector3D& v = from.mVertices[i];
@@ -59,20 +60,24 @@ void addMesh(const aiMesh& from, const Eigen::Affine3d& map, TriangleMesh& to, b
   }
   for (unsigned i = 0; i < from.mNumFaces; ++i) {
     const aiFace& face = from.mFaces[i];
-    if (face.mNumIndices != 3) {
+    if (face.mNumIndices < 3) {
       hasLines = true;
       continue;
     }
-    if (std::any_of(face.mIndices, face.mIndices + 3,
+    if (std::any_of(face.mIndices, face.mIndices + face.mNumIndices,
                     [&](unsigned corner) { return corner >= from.mNumVertices; }))
       throw std::runtime_error("a face has a corner that is out of range");
-    to.triangles.push_back(
-        {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+    if (face.mNumIndices > 3)
+      import.polygons.push_back(
+          {static_cast<std::uint32_t>(to.triangles.size()), face.mNumIndices - 2, 0, 0});
+    for (unsigned k = 2; k < face.mNumIndices; ++k)
+      to.triangles.push_back(
+          {first + face.mIndices[0], first + face.mIndices[k - 1], first + face.mIndices[k]});
   }
 }
 
 void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent,
-             TriangleMesh& to, bool& hasLines) {
+             AssimpImport& to, bool& hasLines) {
   const Eigen::Affine3d map = parent * inDoubles(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     addMesh(*scene.mMeshes[node.mMeshes[i]], map, to, hasLines);
@@ -94,13 +99,13 @@ double shortestDecimal(float value) {
 
 /// Checks the transform of the root node of a Collada scene. assimp puts Collada's unit and up-axis
 /// there. A unit that is 0, or too small for assimp's floats, would shrink the mesh to a point. A
-/// negative unit would mirror the mesh. Under `OmplApp` a mirrored mesh is accepted, because the
-/// mirroring may come from a node of the file that OMPL.app's import steps have merged into the
+/// negative unit would mirror the mesh. Under OMPL.app's rules a mirrored mesh is accepted, because
+/// the mirroring may come from a node of the file that OMPL.app's import steps have merged into the
 /// root. @throws std::runtime_error if the transform shrinks the mesh to a point; under `Stored`,
 /// also if it mirrors the mesh.
 void checkColladaRoot(const aiScene& scene, AssimpRules rules) {
   const double volume = inDoubles(scene.mRootNode->mTransformation).linear().determinant();
-  if (!(volume > 0 || (volume < 0 && rules == AssimpRules::OmplApp)))
+  if (!(volume > 0 || (volume < 0 && rules != AssimpRules::Stored)))
     throw std::runtime_error("its <unit> is not above 0, or too small");
 }
 
@@ -214,11 +219,6 @@ class DropLog : public Assimp::LogStream {
             file_, 0,
             "an object has the property \"" + name + "\" twice, and assimp drops one; remove one");
     }
-    if (text.find("Failed to triangulate polygon") != text.npos)
-      report_.fault(
-          file_, 0,
-          "assimp can't cut a concave polygon into triangles; triangulate the mesh before "
-          "it is saved");
     if (text.find("failed to read source object for incoming Model link") != text.npos)
       report_.note("parts that are no polygons, such as NURBS surfaces, are not read");
   }
@@ -278,11 +278,11 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION,
                            rules == AssimpRules::Stored);
-  const unsigned steps = rules == AssimpRules::Stored
-                             ? unsigned{aiProcess_Triangulate}
-                             : aiProcess_GenNormals | aiProcess_Triangulate |
+  const unsigned steps = rules == AssimpRules::OmplApp
+                             ? aiProcess_GenNormals | aiProcess_Triangulate |
                                    aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
-                                   aiProcess_OptimizeGraph;
+                                   aiProcess_OptimizeGraph
+                             : 0u;
   importer.ReadFile(file, steps);
   if (kind == ContentKind::X3d)
     for (const std::string& other : result.otherFiles)
@@ -306,9 +306,9 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
     result.fileUnit = takeFileUnit(*own, result.format) + report.fileUnit;  // one of them is 0
-    addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
+    addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result, hasLines);
   } else {
-    addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result.mesh, hasLines);
+    addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result, hasLines);
   }
   if (hasLines) report.note(kNoteOnLines);
   const auto triangles = static_cast<double>(result.mesh.triangles.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/triangle_mesh.h"
 
 /// Import of mesh files by assimp: rules, formats, and the result. Only the helper program
@@ -19,6 +20,8 @@ enum class AssimpRules {
   Stored,
   /// The import steps of OMPL.app. Collada's up-axis and unit are applied, as assimp applies them.
   OmplApp,
+  /// The frame of `OmplApp`, without its import steps: polygons are not cut into triangles.
+  OmplAppPolygons,
 };
 
 /// The formats that assimp reads for Corridor (README.md gives the reason for each). It is tested
@@ -37,6 +40,9 @@ struct AssimpImport {
   /// The mesh in the frame of the file's scene. It has all vertices that assimp keeps, including
   /// those of lines and points; equal vertices may be repeated.
   TriangleMesh mesh;
+  /// The fans of `mesh` that are polygons. They are not cut yet (`cutPolygons`), because assimp's
+  /// way of cutting concave polygons with straight corners is wrong.
+  std::vector<PolygonFan> polygons;
   std::string format;   ///< assimp's name of the format
   double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none, or `OmplApp`
   bool isCollada = false;

@@ -12,8 +12,8 @@ constexpr std::uint64_t kMagic = 0x31706d6973736131;  // "1assimp1"
 /// The header of the packed bytes.
 struct Head {
   std::uint64_t magic = kMagic;
-  std::uint64_t vertices = 0, triangles = 0;            // counts
-  std::uint64_t faults = 0, notes = 0, otherFiles = 0;  // counts
+  std::uint64_t vertices = 0, triangles = 0, polygons = 0;  // counts
+  std::uint64_t faults = 0, notes = 0, otherFiles = 0;      // counts
   double fileUnit = 0;
   std::uint64_t isCollada = 0;
   std::int64_t up = 0;
@@ -72,6 +72,7 @@ std::string packed(const AssimpImport& import) {
   const Head head{kMagic,
                   import.mesh.vertices.size(),
                   import.mesh.triangles.size(),
+                  import.polygons.size(),
                   import.faults.size(),
                   import.notes.size(),
                   import.otherFiles.size(),
@@ -79,10 +80,12 @@ std::string packed(const AssimpImport& import) {
                   import.isCollada,
                   import.up};
   std::string bytes;
-  bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices));
+  bytes.reserve(sizeof head + head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +
+                head.polygons * sizeof(PolygonFan));
   append(bytes, &head, 1);
   append(bytes, import.mesh.vertices.data(), import.mesh.vertices.size());
   append(bytes, import.mesh.triangles.data(), import.mesh.triangles.size());
+  append(bytes, import.polygons.data(), import.polygons.size());
   for (const Fault& fault : import.faults) {
     appendText(bytes, fault.file);
     append(bytes, &fault.line, 1);
@@ -101,12 +104,16 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
   take(bytes, &head, 1);
   // The counts are compared with the size first, so that the products below cannot overflow.
   if (head.magic != kMagic || head.vertices > bytes.size() || head.triangles > bytes.size() ||
-      bytes.size() < head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices))
+      head.polygons > bytes.size() ||
+      bytes.size() < head.vertices * sizeof(Vec3) + head.triangles * sizeof(Indices) +
+                         head.polygons * sizeof(PolygonFan))
     return false;
   import.mesh.vertices.resize(head.vertices);
   import.mesh.triangles.resize(head.triangles);
+  import.polygons.resize(head.polygons);
   take(bytes, import.mesh.vertices.data(), head.vertices);
   take(bytes, import.mesh.triangles.data(), head.triangles);
+  take(bytes, import.polygons.data(), head.polygons);
   if (!takeFaults(bytes, head.faults, import.faults) ||
       !takeTexts(bytes, head.notes, import.notes) ||
       !takeTexts(bytes, head.otherFiles, import.otherFiles) || !takeText(bytes, import.format) ||

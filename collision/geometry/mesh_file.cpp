@@ -8,6 +8,7 @@
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_process.h"
 #include "collision/geometry/collada_asset.h"
+#include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/file_frame.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/geometry/mesh_readers.h"
@@ -101,6 +102,13 @@ std::optional<char> requireForAssimp(const std::filesystem::path& file,
 
 constexpr const char* floatHint = " (this format is read in float, which ends at 3.4e38)";
 
+/// Returns the mesh of an import with its polygons cut and its equal vertices merged.
+TriangleMesh cutAndWelded(AssimpImport& import, MeshFaults& faults) {
+  requireSound(import.mesh, faults, floatHint);
+  cutPolygons(import.mesh, import.polygons, faults, import.notes);
+  return welded(import.mesh);
+}
+
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
   if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
@@ -109,9 +117,8 @@ StoredMesh readForeign(const std::filesystem::path& file, const std::string& ext
   }
   const std::optional<char> up = requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
-  requireSound(import.mesh, faults, floatHint);
   StoredMesh stored;
-  stored.file.mesh = welded(import.mesh);
+  stored.file.mesh = cutAndWelded(import, faults);
   stored.file.format = std::move(import.format);
   stored.file.floatVertices = true;
   stored.file.notes = std::move(import.notes);
@@ -225,7 +232,14 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
   result.vertexAverage /= result.importedVertices;
   // assimp can drop facets of the formats with a reader of our own, and find as many others.
-  result.mesh = own ? std::move(read.mesh) : welded(import.mesh);
+  if (own) {
+    result.mesh = std::move(read.mesh);
+  } else {
+    if (import.isCollada) {
+      import = readWithAssimp(file.string(), AssimpRules::OmplAppPolygons);
+    }
+    result.mesh = cutAndWelded(import, faults);
+  }
   result.notes = std::move(import.notes);
   for (std::string& note : read.notes) result.notes.push_back(std::move(note));
   result.otherFiles = std::move(import.otherFiles);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/mesh_readers.h"
 
 namespace corridor {
@@ -51,6 +52,7 @@ class ObjReader {
       if (late.number > count()) outOfRange(late.line, late.number);
     }
     faults_.throwIfAny();
+    cutPolygons(mesh_, polygons_, faults_, notes_);
     return {std::move(mesh_), "OBJ", std::move(notes_), std::move(statedUnits_)};
   }
 
@@ -94,7 +96,9 @@ class ObjReader {
 
   void readFace() {
     std::array<std::uint32_t, 3> triangle{};
-    int corners = 0;
+    const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
+    std::uint32_t corners = 0;
+    ++faces_;
     for (std::string_view word = nextWord(); !word.empty(); word = nextWord()) {
       triangle[corners < 2 ? corners : 2] = corner(word);
       if (++corners < 3) continue;
@@ -105,6 +109,8 @@ class ObjReader {
     if (corners < 3) {
       faults_.add(cursor_.line(),
                   "a face has at least 3 corners, found " + std::to_string(corners));
+    } else if (corners > 3) {
+      polygons_.push_back({first, corners - 2, faces_, cursor_.line()});
     }
   }
 
@@ -146,6 +152,8 @@ class ObjReader {
   MeshFaults& faults_;
   bool continued_ = false;
   TriangleMesh mesh_;
+  std::uint32_t faces_ = 0;
+  std::vector<PolygonFan> polygons_;
   std::vector<LateCorner> lateCorners_;
   std::vector<std::string> notes_;
   std::vector<StatedUnit> statedUnits_;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/mesh_readers.h"
 
@@ -35,8 +36,11 @@ class OffReader {
       faults_.add(cursor_.line(), inQuotes(more) + " comes after the last of the " +
                                       std::to_string(faces) + " faces: the counts are wrong");
     faults_.throwIfAny();
-    ReadMesh read{std::move(mesh_), "OFF"};
-    if (hasLines_) read.notes = {kNoteOnLines};
+    ReadMesh read;
+    cutPolygons(mesh_, polygons_, faults_, read.notes);
+    read.mesh = std::move(mesh_);
+    read.format = "OFF";
+    if (hasLines_) read.notes.push_back(kNoteOnLines);
     read.statedUnits = std::move(statedUnits_);
     return read;
   }
@@ -122,6 +126,7 @@ class OffReader {
     }
     hasLines_ |= corners == 1 || corners == 2;
     std::array<std::uint32_t, 3> triangle{};
+    const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
     for (std::int64_t k = 0; k < corners; ++k) {
       const auto corner = readCorner(k, corners);
       if (!corner) break;
@@ -131,6 +136,9 @@ class OffReader {
       faults_.requireFew(mesh_, cursor_.line());
       triangle[1] = triangle[2];
     }
+    if (const auto triangles = static_cast<std::uint32_t>(mesh_.triangles.size()) - first;
+        triangles > 1)
+      polygons_.push_back({first, triangles, static_cast<std::uint32_t>(i + 1), cursor_.line()});
     endLine();
   }
 
@@ -157,6 +165,7 @@ class OffReader {
   MeshFaults& faults_;
   TriangleMesh mesh_;
   bool hasLines_ = false;
+  std::vector<PolygonFan> polygons_;
   std::vector<StatedUnit> statedUnits_;
 };
 

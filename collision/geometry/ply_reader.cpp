@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/mesh_readers.h"
 #include "collision/geometry/ply_header.h"
 #include "collision/geometry/point_readers.h"
@@ -68,6 +69,8 @@ class AsciiBody {
   [[noreturn]] void fail(const std::string& text) {
     faults_.fail(cursor_.line(), place.str() + ": " + text);
   }
+
+  int line() const { return cursor_.line(); }
 
   Place place;
   bool isMesh = true;  // false: coordinates need not be finite
@@ -134,6 +137,8 @@ class BinaryBody {
   void add(const std::string& text) { faults_.add(0, where() + text); }
   [[noreturn]] void fail(const std::string& text) { faults_.fail(0, where() + text); }
 
+  static int line() { return 0; }
+
   Place place;
   bool isMesh = true;  // false: coordinates need not be finite
 
@@ -167,7 +172,8 @@ class BodyReader {
     body_.isMesh = isMesh;
   }
 
-  TriangleMesh read() {
+  /// Appends notes to `notes`.
+  TriangleMesh read(std::vector<std::string>& notes) {
     for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex" && isMesh_) faults_.requireFew(element.count, "vertices", 0);
       if (element.name == "vertex" && !isMesh_) limitPoints(element.count, 0, faults_);
@@ -185,6 +191,7 @@ class BodyReader {
     }
     body_.expectEnd();
     faults_.throwIfAny();
+    cutPolygons(mesh_, polygons_, faults_, notes);
     return std::move(mesh_);
   }
 
@@ -230,6 +237,7 @@ class BodyReader {
   void readCorners(PlyType type, std::int64_t count) {
     if (count < 3) body_.add("a face has at least 3 corners, found " + std::to_string(count));
     std::array<std::uint32_t, 3> triangle{};
+    const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
     for (std::int64_t i = 0; i < count; ++i) {
       const std::int64_t corner = body_.integer(type);
       if (corner < 0 || static_cast<std::uint64_t>(corner) >= vertexCount_) {
@@ -242,6 +250,9 @@ class BodyReader {
       faults_.requireFew(mesh_, 0);
       triangle[1] = triangle[2];
     }
+    if (count > 3)
+      polygons_.push_back({first, static_cast<std::uint32_t>(count - 2),
+                           static_cast<std::uint32_t>(body_.place.index + 1), body_.line()});
   }
 
   const PlyHeader& header_;
@@ -250,12 +261,16 @@ class BodyReader {
   MeshFaults& faults_;
   std::uint64_t vertexCount_ = 0;
   TriangleMesh mesh_;
+  std::vector<PolygonFan> polygons_;
 };
 
 template <class Body>
-TriangleMesh readBody(std::string_view body, const PlyHeader& header, bool isMesh,
-                      MeshFaults& faults) {
-  return BodyReader<Body>(header, isMesh, Body(body, header, faults), faults).read();
+ReadMesh readBody(std::string_view body, const PlyHeader& header, bool isMesh, const char* format,
+                  MeshFaults& faults) {
+  ReadMesh read;
+  read.mesh = BodyReader<Body>(header, isMesh, Body(body, header, faults), faults).read(read.notes);
+  read.format = format;
+  return read;
 }
 
 /// Returns notes on lists of faces that are not read, and are none of those that do not concern
@@ -275,13 +290,13 @@ ReadMesh readPlyElements(std::string_view bytes, const PlyHeader& header, bool i
   const std::string_view body = bytes.substr(header.size);
   switch (header.encoding) {
     case PlyEncoding::Ascii:
-      return {readBody<AsciiBody>(body, header, isMesh, faults), "PLY (ASCII)"};
+      return readBody<AsciiBody>(body, header, isMesh, "PLY (ASCII)", faults);
     case PlyEncoding::LittleEndian:
-      return {readBody<BinaryBody>(body, header, isMesh, faults), "PLY (binary, little endian)"};
+      return readBody<BinaryBody>(body, header, isMesh, "PLY (binary, little endian)", faults);
     case PlyEncoding::BigEndian:
       break;
   }
-  return {readBody<BinaryBody>(body, header, isMesh, faults), "PLY (binary, big endian)"};
+  return readBody<BinaryBody>(body, header, isMesh, "PLY (binary, big endian)", faults);
 }
 
 }  // namespace
@@ -289,7 +304,7 @@ ReadMesh readPlyElements(std::string_view bytes, const PlyHeader& header, bool i
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
   const PlyHeader header = readPlyHeader(bytes, true, faults);
   ReadMesh read = readPlyElements(bytes, header, true, faults);
-  read.notes = notesOnLists(header);
+  for (std::string& note : notesOnLists(header)) read.notes.push_back(std::move(note));
   read.statedUnits = header.statedUnits;
   return read;
 }

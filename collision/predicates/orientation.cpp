@@ -55,6 +55,11 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
   return exactDeterminantSign({p, q}, {p, r}, {p, s});
 }
 
+int lineSide(const Vec2& p, const Vec2& q, const Vec2& r) {
+  const auto lifted = [](const Vec2& v, double z) { return Vec3(v.x(), v.y(), z); };
+  return planeSide(lifted(p, 0), lifted(q, 0), lifted(r, 0), lifted(p, 1));
+}
+
 int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
   // J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
   // Predicates (1997): the rounded determinant is off by at most (7 + 56u)u times the sum of

@@ -4,6 +4,8 @@
 
 namespace corridor {
 
+using Vec2 = Eigen::Vector2d;
+
 /// A point under an affine map. Holds a reference to the map: the map must outlive the
 /// `MappedPoint`.
 struct MappedPoint {
@@ -30,5 +32,10 @@ int exactDeterminantSign(const MappedEdge& u, const MappedEdge& v, const MappedE
 /// Returns the same sign as `orientationSign` for points under the identity map, but is faster.
 /// @pre all numbers are finite.
 int planeSide(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s);
+
+/// Returns 1 if r is left of the line from p to q in the plane, −1 if it is right of the line, 0 if
+/// it is on the line. Exact.
+/// @pre all coordinates are finite.
+int lineSide(const Vec2& p, const Vec2& q, const Vec2& r);
 
 }  // namespace corridor

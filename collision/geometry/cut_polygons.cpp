@@ -1,0 +1,307 @@
+#include "collision/geometry/cut_polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "collision/core/shortest.h"
+#include "collision/geometry/mesh_limits.h"
+
+namespace corridor {
+namespace {
+
+using Index = std::uint32_t;
+using Triangle = std::array<Index, 3>;
+
+bool isBefore(const Vec2& p, const Vec2& q) {
+  return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
+}
+
+/// Returns whether a counterclockwise polygon is convex: no corner turns right or back, and the
+/// boundary goes around once, from left to right and back.
+bool isConvex(std::span<const Vec2> points) {
+  std::vector<Vec2> p(points.begin(), points.end());
+  p.erase(std::unique(p.begin(), p.end()), p.end());
+  const std::size_t n = p.size() > 1 && p.front() == p.back() ? p.size() - 1 : p.size();
+  if (n < 3) return false;
+  int turns = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
+    const bool turnsBack = isBefore(a, b) != isBefore(b, c);
+    const int side = lineSide(a, b, c);
+    if (side < 0 || (side == 0 && turnsBack)) return false;
+    turns += turnsBack;
+  }
+  return turns == 2;
+}
+
+/// Returns whether all points of the second list are on the line through p and q, or right of it.
+bool isRightOf(const Vec2& p, const Vec2& q, std::initializer_list<const Vec2*> points) {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vec2* r) { return lineSide(p, q, *r) <= 0; });
+}
+
+/// A counterclockwise triangle, with the box around it.
+struct Corners {
+  const Vec2 &a, &b, &c;
+  Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+
+  bool isApart(const Vec2& otherLow, const Vec2& otherHigh) const {
+    return otherHigh.x() <= low.x() || otherLow.x() >= high.x() || otherHigh.y() <= low.y() ||
+           otherLow.y() >= high.y();
+  }
+  /// Returns whether the line of one of the edges has these points on its other side.
+  bool isSeparatedFrom(std::initializer_list<const Vec2*> points) const {
+    return isRightOf(a, b, points) || isRightOf(b, c, points) || isRightOf(c, a, points);
+  }
+  /// Returns whether the edge from p to q enters the triangle's interior. If two convex sets of the
+  /// plane do not meet, a line along an edge of one of them is between them.
+  bool isEnteredBy(const Vec2& p, const Vec2& q) const {
+    return !isApart(p.cwiseMin(q), p.cwiseMax(q)) && !isSeparatedFrom({&p, &q}) &&
+           !isRightOf(p, q, {&a, &b, &c}) && !isRightOf(q, p, {&a, &b, &c});
+  }
+  bool overlaps(const Corners& o) const {
+    return !isApart(o.low, o.high) && !isSeparatedFrom({&o.a, &o.b, &o.c}) &&
+           !o.isSeparatedFrom({&a, &b, &c});
+  }
+};
+
+class EarCutter {
+ public:
+  explicit EarCutter(std::span<const Vec2> points) : p_(points), left_(points.size()) {
+    next_.resize(left_);
+    previous_.resize(left_);
+    inTheWay_.resize(left_);
+    for (Index i = 0; i < left_; ++i) {
+      next_[i] = i + 1 < left_ ? i + 1 : 0;
+      previous_[next_[i]] = i;
+    }
+  }
+
+  std::vector<Triangle> run() {
+    for (Index i = 0; i < p_.size() && left_ > 3; ++i)
+      if (!isCut(i)) cutFolds(i);
+    while (left_ > 3) {
+      if (!cutOne([this](Index i) { return isEar(i); }) &&
+          !cutOne([this](Index i) { return side(i) == 0; }))
+        return {};
+    }
+    if (side(at_) < 0) return {};
+    triangles_.push_back({previous_[at_], at_, next_[at_]});
+    return overlap() ? std::vector<Triangle>() : std::move(triangles_);
+  }
+
+ private:
+  int side(Index i) const { return lineSide(p_[previous_[i]], p_[i], p_[next_[i]]); }
+
+  /// Returns whether the boundary turns back at a corner, or repeats it: the corner can go.
+  bool isFold(Index i) const {
+    const Vec2 &a = p_[previous_[i]], &b = p_[i], &c = p_[next_[i]];
+    return a == b || b == c || (side(i) == 0 && isBefore(a, b) == isBefore(c, b));
+  }
+
+  bool isCut(Index i) const { return next_[previous_[i]] != i; }
+
+  bool isEar(Index i) {
+    if (side(i) <= 0) return false;
+    const Corners triangle{p_[previous_[i]], p_[i], p_[next_[i]]};
+    const auto enters = [&](Index k) { return triangle.isEnteredBy(p_[k], p_[next_[k]]); };
+    // The edge that was in the way the last time most often still is.
+    if (!isCut(inTheWay_[i]) && enters(inTheWay_[i])) return false;
+    for (Index k = next_[i]; k != previous_[i]; k = next_[k])
+      if (enters(k)) return inTheWay_[i] = k, false;
+    return true;
+  }
+
+  void cut(Index i) {
+    triangles_.push_back({previous_[i], i, next_[i]});
+    next_[previous_[i]] = next_[i];
+    previous_[next_[i]] = previous_[i];
+    at_ = next_[i];
+    --left_;
+  }
+
+  /// Cuts off folds at a corner, and those that this causes at its neighbours.
+  void cutFolds(Index i) {
+    for (std::vector<Index> open{i}; !open.empty() && left_ > 3;) {
+      const Index k = open.back();
+      open.pop_back();
+      if (isCut(k) || !isFold(k)) continue;
+      open.insert(open.end(), {previous_[k], next_[k]});
+      cut(k);
+    }
+  }
+
+  /// Cuts off the first corner that fulfils a condition, from `at_` on. @returns false: none does
+  template <class Condition>
+  bool cutOne(const Condition& condition) {
+    Index i = at_;
+    for (std::size_t k = 0; k < left_; ++k, i = next_[i]) {
+      if (!condition(i)) continue;
+      const Index before = previous_[i], after = next_[i];
+      cut(i);
+      at_ = next_[after];  // not the neighbour: fans of thin triangles would result
+      cutFolds(before);
+      cutFolds(after);
+      return true;
+    }
+    return false;
+  }
+
+  /// Returns whether two triangles overlap. The boundaries of the triangles add up to the
+  /// polygon's, so each point is in as many triangles as the number of times that the boundary
+  /// winds about it.
+  bool overlap() const {
+    std::vector<Corners> sorted;
+    for (const Triangle& t : triangles_)
+      if (lineSide(p_[t[0]], p_[t[1]], p_[t[2]]) > 0)
+        sorted.push_back({p_[t[0]], p_[t[1]], p_[t[2]]});
+    std::vector<Index> order(sorted.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(),
+              [&](Index i, Index j) { return sorted[i].low.x() < sorted[j].low.x(); });
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t j = i + 1;
+           j < order.size() && sorted[order[j]].low.x() < sorted[order[i]].high.x(); ++j)
+        if (sorted[order[i]].overlaps(sorted[order[j]])) return true;
+    return false;
+  }
+
+  std::span<const Vec2> p_;
+  std::size_t left_;
+  std::vector<Index> next_, previous_;
+  std::vector<Index> inTheWay_;  // of each corner, an edge that entered its triangle; else any edge
+  Index at_ = 0;
+  std::vector<Triangle> triangles_;
+};
+
+/// A polygon of a file, and the plane that fits it best: through the mean of its corners, with the
+/// normal of M. Newell.
+struct Face {
+  std::vector<Index> vertices;
+  std::vector<Vec3> corners;  ///< divided by `size`
+  double size = 0;            ///< the largest absolute coordinate
+  Vec3 normal = Vec3::Zero();
+  double deviation = 0;  ///< the largest distance of a corner from the plane, divided by `size`
+
+  Face(const TriangleMesh& mesh, const PolygonFan& fan) {
+    const Triangle* const triangles = mesh.triangles.data() + fan.firstTriangle;
+    vertices = {triangles[0][0], triangles[0][1]};
+    for (Index k = 0; k < fan.triangles; ++k) vertices.push_back(triangles[k][2]);
+    for (const Index v : vertices) size = std::max(size, mesh.vertices[v].cwiseAbs().maxCoeff());
+    if (size == 0) size = 1;
+    Vec3 mean = Vec3::Zero();
+    for (const Index v : vertices) {
+      corners.emplace_back(mesh.vertices[v] / size);
+      mean += corners.back() / static_cast<double>(vertices.size());
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      normal += (corners[i] - mean).cross(corners[(i + 1) % corners.size()] - mean);
+    const Vec3 direction = normal.stableNormalized();
+    for (const Vec3& p : corners)
+      deviation = std::max(deviation, std::abs(direction.dot(p - mean)));
+  }
+
+  /// Returns the corners in the projection along the axis that is nearest to the normal. They are
+  /// the file's coordinates, without rounding. They are counterclockwise for `isFront`, unless the
+  /// area is no larger than its rounding error.
+  std::vector<Vec2> projected(const TriangleMesh& mesh, bool isFront) const {
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if ((normal[axis] > 0) != isFront) std::swap(u, v);
+    std::vector<Vec2> result;
+    for (const Index i : vertices) result.emplace_back(mesh.vertices[i][u], mesh.vertices[i][v]);
+    return result;
+  }
+
+  /// Returns whether the corners are all within a distance of one line.
+  bool isThin(double distance) const {
+    const auto far =
+        std::max_element(corners.begin(), corners.end(), [&](const Vec3& p, const Vec3& q) {
+          return (p - corners[0]).squaredNorm() < (q - corners[0]).squaredNorm();
+        });
+    const Vec3 along = (*far - corners[0]).stableNormalized();
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) {
+      return (p - corners[0]).cross(along).norm() <= distance;
+    });
+  }
+};
+
+/// Coordinates of six digits, as files commonly have them, are off by 5e-6 of the largest one. A
+/// plane that fits them may be off by as much.
+constexpr double kFlatSlack = 1e-5;
+
+std::string nameOf(const PolygonFan& fan) {
+  return (fan.face > 0 ? "face " + std::to_string(fan.face) + ", a polygon" : "a polygon") +
+         " of " + std::to_string(fan.triangles + 2) + " corners, ";
+}
+
+/// Returns two edges that cross at a point within both, as a text; "" if none do.
+std::string crossingOf(std::span<const Vec2> p) {
+  const std::size_t n = std::min<std::size_t>(p.size(), 1000);  // finding them takes n^2 steps
+  const auto after = [&](std::size_t i) { return p[(i + 1) % p.size()]; };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 2; k < n; ++k)
+      if (lineSide(p[i], after(i), p[k]) * lineSide(p[i], after(i), after(k)) < 0 &&
+          lineSide(p[k], after(k), p[i]) * lineSide(p[k], after(k), after(i)) < 0)
+        return " (the edges behind its corners " + std::to_string(i + 1) + " and " +
+               std::to_string(k + 1) + ")";
+  return {};
+}
+
+}  // namespace
+
+std::vector<Triangle> trianglesOfPolygon(std::span<const Vec2> corners) {
+  if (!isConvex(corners)) return EarCutter(corners).run();
+  std::vector<Triangle> fan;
+  for (Index k = 2; k < corners.size(); ++k) fan.push_back({0, k - 1, k});
+  return fan;
+}
+
+void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFaults& faults,
+                 std::vector<std::string>& notes) {
+  std::size_t bent = 0;
+  const PolygonFan* mostBent = nullptr;
+  double deviation = 0;
+  for (const PolygonFan& fan : fans) {
+    const Face face(mesh, fan);
+    const bool isBent = face.deviation > kFlatSlack;
+    bent += isBent;
+    if (isBent && face.deviation * face.size > deviation) {
+      mostBent = &fan;
+      deviation = face.deviation * face.size;
+    }
+    const std::vector<Vec2> front = face.projected(mesh, true);
+    if (fan.triangles + 2 > kMostPolygonCorners && !isConvex(front)) {
+      faults.add(fan.line, nameOf(fan) + "is not convex, and has more than " +
+                               std::to_string(kMostPolygonCorners) +
+                               " corners; save the mesh as triangles");
+      continue;
+    }
+    std::vector<Triangle> triangles = trianglesOfPolygon(front);
+    if (triangles.empty()) triangles = trianglesOfPolygon(face.projected(mesh, false));
+    if (triangles.empty() && (isBent || face.isThin(kFlatSlack))) continue;  // stays a fan
+    if (triangles.empty())
+      faults.add(fan.line, nameOf(fan) + "crosses or overlaps itself" + crossingOf(front) +
+                               "; split it into simple polygons, or into triangles");
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        mesh.triangles[fan.firstTriangle + k][i] = face.vertices[triangles[k][i]];
+  }
+  faults.throwIfAny();
+  if (!mostBent) return;
+  notes.push_back(
+      (bent == 1 ? std::string("1 polygon is") : std::to_string(bent) + " polygons are") +
+      " not flat: the surface between the corners is that of the triangles into which they are "
+      "cut; the largest deviation from a plane is " +
+      withDigits(deviation, 3) + " units of the file" +
+      (mostBent->line > 0   ? ", at line " + std::to_string(mostBent->line)
+       : mostBent->face > 0 ? ", at face " + std::to_string(mostBent->face)
+                            : std::string()));
+}
+
+}  // namespace corridor
