@@ -19,9 +19,10 @@ struct Outside {
   Vec3 normal = Vec3::Zero();  ///< rounded
 };
 
-class Hull {
+class HullBuilder {
  public:
-  explicit Hull(std::span<const Vec3> points) : points_(points), next_(points.size(), kNone) {}
+  explicit HullBuilder(std::span<const Vec3> points)
+      : points_(points), next_(points.size(), kNone) {}
 
   std::vector<std::array<std::uint32_t, 3>> run() {
     const auto start = findTetrahedron(points_);
@@ -104,7 +105,7 @@ class Hull {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> quickhull(std::span<const Vec3> points) {
-  return Hull(points).run();
+  return HullBuilder(points).run();
 }
 
 }  // namespace corridor

@@ -1,18 +1,13 @@
 #include "collision/geometry/assimp_content.h"
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 
 namespace corridor {
 ContentKind contentKindOf(std::string_view extension) {
   return extension == ".dae"    ? ContentKind::Collada
          : extension == ".gltf" ? ContentKind::Gltf
          : extension == ".glb"  ? ContentKind::BinaryGltf
-         : extension == ".x3d"  ? ContentKind::X3d
-         : extension == ".amf"  ? ContentKind::Amf
          : extension == ".3mf"  ? ContentKind::ThreeMf
-         : extension == ".fbx"  ? ContentKind::Fbx
                                 : ContentKind::Other;
 }
 
@@ -37,17 +32,18 @@ void ContentReport::note(const std::string& text) {
 
 void checkContent(ContentKind kind, const std::string& file, std::string_view bytes,
                   ContentReport& report) {
-  if (kind == ContentKind::Other) return;
-  if (kind == ContentKind::Gltf) return checkGltf(file, bytes, report);
-  if (kind == ContentKind::Fbx) return checkFbx(file, bytes, report);
-  if (kind == ContentKind::ThreeMf) return checkThreeMf(file, report);
-  if (kind != ContentKind::BinaryGltf) return checkXml(kind, file, bytes, report);
-  // In both versions of the format, the JSON begins at byte 20, and its size is at byte 12.
-  std::uint32_t size = 0;
-  if (bytes.size() < 20) return;
-  std::memcpy(&size, bytes.data() + 12, sizeof size);
-  const std::string_view json = bytes.substr(20, size);
-  checkGltf(file, json, report, bytes.size() - 20 - json.size());
+  switch (kind) {
+    case ContentKind::Collada:
+      return checkCollada(file, bytes, report);
+    case ContentKind::Gltf:
+      return checkGltf(file, bytes, report);
+    case ContentKind::BinaryGltf:
+      return checkGlb(file, bytes, report);
+    case ContentKind::ThreeMf:
+      return checkThreeMf(file, report);
+    case ContentKind::Other:
+      return;
+  }
 }
 
 }  // namespace corridor

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,7 +13,7 @@
 namespace corridor {
 
 /// assimp chooses its importer by the extension, too.
-enum class ContentKind { Collada, Gltf, BinaryGltf, X3d, Amf, ThreeMf, Fbx, Other };
+enum class ContentKind { Collada, Gltf, BinaryGltf, ThreeMf, Other };
 
 /// Returns the kind of a file from its extension, in lower case.
 ContentKind contentKindOf(std::string_view extension);
@@ -31,17 +28,9 @@ class ContentReport {
 
   std::vector<Fault> faults;
   std::vector<std::string> notes;
-  double fileUnit = 0;  ///< metres; 0: neither an AMF nor a 3MF file
+  double fileUnit = 0;  ///< metres; 0: no 3MF file
   /// The number of triangles in the file; nullopt if it is not counted.
   std::optional<double> triangles;
-
-  /// A name that nodes of X3D have (DEF) or refer to (USE).
-  struct NodeName {
-    std::string definedIn;     ///< the last file that has a node of the name; "": none
-    bool isInSeveral = false;  ///< nodes of several files have the name
-    bool isUsed = false;
-  };
-  std::map<std::string, NodeName, std::less<>> nodeNames;
 
  private:
   std::set<std::string> known_;
@@ -64,21 +53,12 @@ bool hasLengthOne(const double* numbers, int size);
 /// @param largest the largest absolute value of the list that has the number
 bool isReadRightly(std::string_view word, double value, double largest);
 
-/// Returns an X3D file in which each Inline node has one URL without quotes, which is all that
-/// assimp reads. X3D has a list of URLs in quotes: the first that names a file in the folder is
-/// taken, else the first.
-std::string withPlainUrls(std::string_view x3d, const std::filesystem::path& folder);
-
 /// The parts of `checkContent`.
-/// @param body the number of bytes behind the JSON of a binary file
+/// @param isBinary whether the JSON is that of a GLB file
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
-               std::optional<std::size_t> body = {});
-/// Returns whether a property of FBX may move geometry, by its name.
-bool movesGeometryOfFbx(std::string_view property);
-/// Adds a note for binary files, and does not search them.
-void checkFbx(const std::string& file, std::string_view text, ContentReport& report);
-void checkXml(ContentKind kind, const std::string& file, std::string_view text,
-              ContentReport& report);
+               bool isBinary = false);
+void checkGlb(const std::string& file, std::string_view bytes, ContentReport& report);
+void checkCollada(const std::string& file, std::string_view text, ContentReport& report);
 /// Unpacks the model of an archive, which assimp reads from the file too, and checks it.
 void checkThreeMf(const std::string& file, ContentReport& report);
 

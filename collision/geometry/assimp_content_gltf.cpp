@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 
@@ -21,9 +22,8 @@ bool isHarmless(std::string_view extension) {
   static constexpr std::array<std::string_view, 8> parts{"_materials_", "_texture_", "_lights_",
                                                          "_packing_",   "_xmp",      "_audio",
                                                          "_animation",  "_webgl"};
-  static constexpr std::array<std::string_view, 4> names{
+  static constexpr std::array<std::string_view, 3> names{
       "FB_ngon_encoding",     // assimp's polygons have the same triangles
-      "KHR_binary_glTF",      // the form of binary files of version 1
       "KHR_node_visibility",  // hidden nodes are read, too
       "MSFT_lod"};            // the finest level is in the scene
   return std::find(names.begin(), names.end(), extension) != names.end() ||
@@ -31,18 +31,21 @@ bool isHarmless(std::string_view extension) {
                      [&](std::string_view part) { return extension.find(part) != part.npos; });
 }
 
-/// Returns an element of an array by its index, or of an object by its key (version 1 of glTF).
-/// Returns null if there is none.
-const Json* at(const Json& all, const Json& key) {
-  if (all.is_array() && key.is_number_unsigned() && key.get<std::size_t>() < all.size())
-    return &all[key.get<std::size_t>()];
-  if (!all.is_object() || !key.is_string()) return nullptr;
-  const auto found = all.find(key.get_ref<const std::string&>());
-  return found == all.end() ? nullptr : &*found;
+/// Returns an element of an array by its index; null if there is none.
+const Json* at(const Json& all, const Json& index) {
+  const bool isIndex =
+      all.is_array() && index.is_number_unsigned() && index.get<std::size_t>() < all.size();
+  return isIndex ? &all[index.get<std::size_t>()] : nullptr;
+}
+/// Returns a member of an object; null if there is none.
+const Json* find(const Json& object, const char* name) {
+  if (!object.is_object()) return nullptr;
+  const auto found = object.find(name);
+  return found == object.end() ? nullptr : &*found;
 }
 const Json& member(const Json& object, const char* name) {
   static const Json none;
-  const Json* const value = at(object, name);
+  const Json* const value = find(object, name);
   return value ? *value : none;
 }
 
@@ -68,11 +71,15 @@ std::optional<Json> parse(const std::string& file, std::string_view text, Conten
 
 class GltfCheck {
  public:
-  GltfCheck(const std::string& file, const Json& root, ContentReport& report,
-            std::optional<std::size_t> body)
-      : file_(file), root_(root), report_(report), body_(body) {}
+  GltfCheck(const std::string& file, const Json& root, bool isBinary, ContentReport& report)
+      : file_(file), root_(root), isBinary_(isBinary), report_(report) {}
 
   void run() {
+    if (!checkVersion()) return;
+    for (const char* const list :
+         {"accessors", "bufferViews", "buffers", "meshes", "nodes", "scenes"})
+      if (const Json* const value = find(root_, list); value && !value->is_array())
+        fault('"' + std::string(list) + "\" is not an array");
     for (const Json& name : member(root_, "extensionsRequired"))
       if (name.is_string() && !isHarmless(name.get<std::string>()) &&
           required_.insert(name.get<std::string>()).second)
@@ -89,6 +96,20 @@ class GltfCheck {
 
  private:
   void fault(const std::string& text) { report_.fault(file_, 0, text); }
+
+  /// Returns whether the file has version 2. assimp decides by the first character.
+  bool checkVersion() {
+    const Json& version = member(member(root_, "asset"), "version");
+    const auto* const name = version.get_ptr<const std::string*>();
+    if (name && (*name == "2" || name->starts_with("2."))) return true;
+    // A string has quotes around it.
+    const std::string text = version.dump();
+    fault((name && !name->empty()
+               ? "glTF " + text.substr(1, text.size() - 2)
+               : std::string("glTF without a version such as \"2.0\" in its asset")) +
+          " is not supported; save the mesh as glTF 2.0");
+    return false;
+  }
 
   void checkExtension(const std::string& name) {
     if (isHarmless(name) || required_.contains(name)) return;
@@ -154,25 +175,22 @@ class GltfCheck {
   /// other values, such as 48.0, by a default, or skips what they belong to.
   void requireIntegers(const Json& object, std::initializer_list<const char*> keys) {
     for (const char* const key : keys)
-      if (const Json* const value = at(object, key); value && !isInteger(*value))
+      if (const Json* const value = find(object, key); value && !isInteger(*value))
         faultInteger(key, *value);
   }
 
-  /// Checks that a value is an index in the root's array `list`. In version 1 of glTF, `list` is an
-  /// object, and the value a key. assimp refuses an index that is too large.
-  void requireReference(const Json* value, const std::string& key, const char* list) {
-    if (value && !(member(root_, list).is_object() ? value->is_string() : isInteger(*value)))
-      faultInteger(key, *value);
-  }
-  void requireReferences(const Json& object, const char* key, const char* list) {
-    const Json* const values = at(object, key);
+  /// Checks that an object's member is an array of indices, if there is one. assimp refuses an
+  /// index that is too large.
+  void requireIndices(const Json& object, const char* key) {
+    const Json* const values = find(object, key);
     if (!values) return;
     if (!values->is_array()) return fault('"' + std::string(key) + "\" is not an array");
-    for (const Json& value : *values) requireReference(&value, key, list);
+    for (const Json& value : *values)
+      if (!isInteger(value)) faultInteger(key, value);
   }
 
   void requireNumbers(const Json& node, const char* key, std::size_t size) {
-    const Json* const numbers = at(node, key);
+    const Json* const numbers = find(node, key);
     if (numbers && !(numbers->is_array() && numbers->size() == size &&
                      std::all_of(numbers->begin(), numbers->end(),
                                  [](const Json& number) { return number.is_number(); })))
@@ -186,12 +204,11 @@ class GltfCheck {
       for (const Json& primitive : member(mesh, "primitives")) {
         checkKeys(primitive, {"attributes", "indices", "mode", "targets"});
         checkKeys(member(primitive, "attributes"), {"POSITION"});
-        requireIntegers(primitive, {"mode"});
+        requireIntegers(primitive, {"indices", "mode"});
+        requireIntegers(member(primitive, "attributes"), {"POSITION"});
         if (const Json& mode = member(primitive, "mode");
             mode.is_number_unsigned() && mode.get<std::uint64_t>() > 6)
           fault("the mode of a primitive is " + mode.dump() + "; 0 to 6 is needed");
-        requireReference(at(primitive, "indices"), "indices", "accessors");
-        requireReference(at(member(primitive, "attributes"), "POSITION"), "POSITION", "accessors");
         checkAccessor("POSITION", member(member(primitive, "attributes"), "POSITION"), 3);
         checkAccessor("indices", member(primitive, "indices"), 1);
       }
@@ -215,9 +232,7 @@ class GltfCheck {
   /// Returns the byteStride of an accessor, or of a part of one; 0 if there is none.
   std::uint64_t strideOf(const Json& part) const {
     const Json* const view = viewOf(part);
-    // Version 1 of glTF has it in the accessor.
-    return std::max(unsignedOf(member(part, "byteStride")),
-                    view ? unsignedOf(member(*view, "byteStride")) : 0);
+    return view ? unsignedOf(member(*view, "byteStride")) : 0;
   }
 
   /// Checks where the elements of an accessor are. assimp reads sparse accessors as if there were
@@ -252,9 +267,8 @@ class GltfCheck {
                      std::uint64_t size) {
     const Json* const view = viewOf(part);
     if (!view || count == 0 || count > kMostInteger) return;
-    for (const Json* const number :
-         {&member(part, "byteOffset"), &member(part, "byteStride"), &member(*view, "byteOffset"),
-          &member(*view, "byteLength"), &member(*view, "byteStride")})
+    for (const Json* const number : {&member(part, "byteOffset"), &member(*view, "byteOffset"),
+                                     &member(*view, "byteLength"), &member(*view, "byteStride")})
       if (!number->is_null() && !isInteger(*number)) return;  // a fault of requireIntegers
     // All numbers are below 2^31, so that nothing overflows.
     const std::uint64_t end = unsignedOf(member(part, "byteOffset")) +
@@ -266,17 +280,18 @@ class GltfCheck {
             "byteLength");
     const Json* const buffer = at(member(root_, "buffers"), member(*view, "buffer"));
     if (!buffer || member(*buffer, "byteLength").is_null()) return;
-    std::uint64_t bytes = unsignedOf(member(*buffer, "byteLength"));
-    // Of a binary file of version 1, this buffer is the body, whatever its byteLength.
-    if (body_ && member(*view, "buffer") == "binary_glTF")
-      bytes = std::min(bytes, std::uint64_t{*body_});
-    if (unsignedOf(member(*view, "byteOffset")) + unsignedOf(length) > bytes)
+    if (unsignedOf(member(*view, "byteOffset")) + unsignedOf(length) >
+        unsignedOf(member(*buffer, "byteLength")))
       fault("the bufferView of " + name +
             " lies beyond the byteLength of its buffer; correct its byteOffset or byteLength");
   }
 
   /// Checks the data in the file. assimp takes characters that Base64 does not have for zeros.
   void checkBuffers() {
+    const Json* const first = at(member(root_, "buffers"), 0u);
+    if (isBinary_ && first && !member(*first, "uri").is_null())
+      fault(
+          "assimp does not read the uri of a GLB file's first buffer; put the data into the file");
     for (const Json& buffer : member(root_, "buffers")) {
       const Json& uri = member(buffer, "uri");
       if (!uri.is_string() || !uri.get_ref<const std::string&>().starts_with("data:")) continue;
@@ -303,42 +318,32 @@ class GltfCheck {
   void checkData() {
     for (const Json& accessor : member(root_, "accessors")) {
       checkKeys(accessor, {"bufferView", "byteOffset", "componentType", "count", "type", "sparse"});
-      requireIntegers(accessor, {"byteOffset", "byteStride", "componentType", "count"});
-      requireReference(at(accessor, "bufferView"), "bufferView", "bufferViews");
-      const Json* const sparse = at(accessor, "sparse");
+      requireIntegers(accessor, {"bufferView", "byteOffset", "componentType", "count"});
+      const Json* const sparse = find(accessor, "sparse");
       if (!sparse) continue;
       if (!sparse->is_object()) fault("\"sparse\" is not an object");
       requireIntegers(*sparse, {"count"});
-      for (const char* const part : {"indices", "values"}) {
-        requireIntegers(member(*sparse, part), {"byteOffset", "componentType"});
-        requireReference(at(member(*sparse, part), "bufferView"), "bufferView", "bufferViews");
-      }
+      for (const char* const part : {"indices", "values"})
+        requireIntegers(member(*sparse, part), {"bufferView", "byteOffset", "componentType"});
     }
     for (const Json& view : member(root_, "bufferViews")) {
       checkKeys(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
-      requireIntegers(view, {"byteOffset", "byteLength", "byteStride"});
-      requireReference(at(view, "buffer"), "buffer", "buffers");
+      requireIntegers(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
     }
-  }
-
-  /// Returns whether an object has a key with another value than the given one.
-  static bool isOther(const Json& object, const char* key, const Json& value) {
-    return !member(object, key).is_null() && member(object, key) != value;
   }
 
   /// Checks nodes and scenes. assimp does not normalise rotations.
   void checkNodes() {
-    requireReference(at(root_, "scene"), "scene", "scenes");
+    requireIntegers(root_, {"scene"});
     for (const Json& scene : member(root_, "scenes")) {
       checkKeys(scene, {"nodes"});
-      requireReferences(scene, "nodes", "nodes");
+      requireIndices(scene, "nodes");
     }
-    const Json& nodes = member(root_, "nodes");
-    for (const Json& node : nodes) {
+    for (const Json& node : member(root_, "nodes")) {
       checkKeys(node, {"mesh", "children", "matrix", "translation", "rotation", "scale", "skin",
                        "weights"});
-      requireReference(at(node, "mesh"), "mesh", "meshes");
-      requireReferences(node, "children", "nodes");
+      requireIntegers(node, {"mesh"});
+      requireIndices(node, "children");
       requireNumbers(node, "matrix", 16);
       requireNumbers(node, "translation", 3);
       requireNumbers(node, "rotation", 4);
@@ -346,12 +351,6 @@ class GltfCheck {
       bool hasParts = false;
       for (const char* const part : {"translation", "rotation", "scale"})
         hasParts |= !member(node, part).is_null();
-      // assimp applies the translation of a node of version 1 first.
-      if (nodes.is_object() && isOther(node, "translation", {0, 0, 0}) &&
-          (isOther(node, "rotation", {0, 0, 0, 1}) || isOther(node, "scale", {1, 1, 1})))
-        fault(
-            "a node of glTF 1.0 has a translation and a rotation or scale, which assimp applies "
-            "in the wrong order; save the mesh as glTF 2.0");
       if (hasParts && !member(node, "matrix").is_null())
         fault("a node has a matrix and another transform, of which assimp reads one; keep one");
       std::vector<double> turn;
@@ -367,7 +366,7 @@ class GltfCheck {
   /// Returns the number of triangles of a primitive by its accessors.
   double trianglesOf(const Json& primitive) const {
     const Json& accessors = member(root_, "accessors");
-    const Json* const indices = at(primitive, "indices");
+    const Json* const indices = find(primitive, "indices");
     const Json* const accessor =
         at(accessors, indices ? *indices : member(member(primitive, "attributes"), "POSITION"));
     const Json& count = accessor ? member(*accessor, "count") : accessors;
@@ -386,11 +385,8 @@ class GltfCheck {
     const auto [entry, isNew] = known.try_emplace(&node, 0);
     if (!isNew) return entry->second;
     double sum = 0;
-    std::vector<Json> keys{member(node, "mesh")};
-    for (const Json& key : member(node, "meshes")) keys.push_back(key);  // in version 1 of glTF
-    for (const Json& key : keys)
-      if (const Json* const mesh = at(member(root_, "meshes"), key))
-        for (const Json& primitive : member(*mesh, "primitives")) sum += trianglesOf(primitive);
+    if (const Json* const mesh = at(member(root_, "meshes"), member(node, "mesh")))
+      for (const Json& primitive : member(*mesh, "primitives")) sum += trianglesOf(primitive);
     for (const Json& key : member(node, "children"))
       if (const Json* const child = at(member(root_, "nodes"), key))
         sum += trianglesOf(*child, known);
@@ -415,8 +411,7 @@ class GltfCheck {
     for (const Json& key : member(*read, "nodes"))
       if (const Json* const node = at(nodes, key)) *report_.triangles += trianglesOf(*node, known);
     for (const Json& node : nodes)
-      if (!known.contains(&node) &&
-          !(member(node, "mesh").is_null() && member(node, "meshes").is_null()))
+      if (!known.contains(&node) && !member(node, "mesh").is_null())
         report_.note("meshes outside the file's default scene are not read");
   }
 
@@ -426,23 +421,35 @@ class GltfCheck {
 
   const std::string& file_;
   const Json& root_;
+  const bool isBinary_;
   ContentReport& report_;
-  const std::optional<std::size_t> body_;  // the bytes behind the JSON of a binary file
-  std::set<std::string> required_;         // extensions that are not supported
+  std::set<std::string> required_;  // extensions that are not supported
 };
 
 }  // namespace
 
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
-               std::optional<std::size_t> body) {
-  if (const auto root = parse(file, json, report)) {
-    GltfCheck(file, *root, report, body).run();
-    const Json* const first = at(member(*root, "buffers"), Json(0u));
-    if (body && first && !member(*first, "uri").is_null())
-      report.fault(file, 0,
-                   "assimp does not read the uri of a GLB file's first buffer; put the data into "
-                   "the file");
-  }
+               bool isBinary) {
+  if (const auto root = parse(file, json, report)) GltfCheck(file, *root, isBinary, report).run();
+}
+
+void checkGlb(const std::string& file, std::string_view bytes, ContentReport& report) {
+  // The word "glTF", the version and the file's size, then the size of the JSON, the word "JSON"
+  // and the JSON itself.
+  constexpr std::size_t kHead = 20;
+  if (bytes.size() < kHead) return;
+  const auto wordAt = [&](std::size_t at) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    return word;
+  };
+  if (const std::uint32_t version = wordAt(4); version != 2)
+    return report.fault(
+        file, 0,
+        "binary glTF " + std::to_string(version) + " is not supported; save the mesh as glTF 2.0");
+  if (bytes.substr(16, 4) != "JSON")
+    return report.fault(file, 0, "the first chunk of a GLB file must be JSON; save the file again");
+  checkGltf(file, bytes.substr(kHead, wordAt(12)), report, true);
 }
 
 }  // namespace corridor

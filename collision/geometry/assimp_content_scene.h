@@ -8,12 +8,8 @@
 
 namespace corridor {
 
-enum class SceneKind { Fbx, Other };
-
 /// Adds a fault if a scene has content that `importByAssimp` would place wrongly: something other
-/// than nodes moves vertices, a transform is not affine, or FBX nodes do not inherit the scale of
-/// their parents as assimp reads it. Adds a note on what is not checked of FBX.
-void checkScene(const aiScene& scene, const std::string& file, SceneKind kind,
-                ContentReport& report);
+/// than nodes moves vertices, or a transform is not affine.
+void checkScene(const aiScene& scene, const std::string& file, ContentReport& report);
 
 }  // namespace corridor

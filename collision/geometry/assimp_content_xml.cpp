@@ -203,13 +203,6 @@ void XmlCheck::requireOwnId(const XmlTag& tag) {
                         "\", so assimp drops one; give each an id of its own");
 }
 
-void XmlCheck::require(const XmlTag& tag, std::initializer_list<std::string_view> children) {
-  for (const std::string_view child : children)
-    if (!isListed(tag.single, child))
-      fault(tag.line,
-            "<" + std::string(tag.name) + "> has no <" + std::string(child) + ">; add it");
-}
-
 /// Returns the next tag. Text, comments and the like are skipped.
 std::optional<XmlTag> XmlCheck::next() {
   while (true) {
@@ -240,13 +233,6 @@ std::optional<XmlTag> XmlCheck::next() {
 void XmlCheck::skipTo(std::string_view end) {
   const auto found = text_.find(end, at_);
   at_ = found == text_.npos ? found : found + end.size();
-}
-
-void checkXml(ContentKind kind, const std::string& file, std::string_view text,
-              ContentReport& report) {
-  (kind == ContentKind::Collada ? checkCollada
-   : kind == ContentKind::X3d   ? checkX3d
-                                : checkAmf)(file, text, report);
 }
 
 }  // namespace corridor

@@ -10,7 +10,7 @@
 
 #include "collision/geometry/assimp_content.h"
 
-/// The search of formats that are based on XML: Collada, X3D, AMF and the model of 3MF.
+/// The search of formats that are based on XML: Collada and the model of 3MF.
 namespace corridor {
 
 /// What is accepted of a format. Lists have a blank before and after each name.
@@ -99,8 +99,6 @@ class XmlCheck {
   void checkTwice(const XmlTag& tag);
   /// Adds a fault if an earlier element of the same name has the same `id`: assimp drops one.
   void requireOwnId(const XmlTag& tag);
-  /// Adds a fault for each of the elements that is not in the element.
-  void require(const XmlTag& tag, std::initializer_list<std::string_view> children);
 
   const XmlRules& rules_;
   const std::string& file_;
@@ -123,10 +121,7 @@ class XmlCheck {
   std::size_t refused_ = kNone;  // the depth of the element that is refused, around the current one
 };
 
-/// The checks of the formats. @param text the file, or for 3MF the model in it.
-void checkCollada(const std::string& file, std::string_view text, ContentReport& report);
-void checkX3d(const std::string& file, std::string_view text, ContentReport& report);
-void checkAmf(const std::string& file, std::string_view text, ContentReport& report);
+/// Checks the model in a 3MF archive.
 void checkThreeMfModel(const std::string& file, std::string_view text, ContentReport& report);
 
 }  // namespace corridor

@@ -18,7 +18,6 @@
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
@@ -121,14 +120,7 @@ double takeFileUnit(aiScene& scene, const std::string& format) {
     root = aiMatrix4x4();
     return shortestDecimal(unit);
   }
-  if (format.starts_with("glTF")) return 1;
-  if (double factor = 0; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", factor)) {
-    return factor / 100;  // FBX's factor is in centimetres
-  }
-  if (float factor = 0; scene.mMetaData && scene.mMetaData->Get("UnitScaleFactor", factor)) {
-    return shortestDecimal(factor) / 100;
-  }
-  return 0;
+  return format.starts_with("glTF") ? 1 : 0;
 }
 
 std::string oneLine(std::string text) {
@@ -156,7 +148,6 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
     if (file != file_ && !isObj_ &&
         std::find(opened_.begin(), opened_.end(), file) == opened_.end())
       opened_.emplace_back(file);
-    if (lowered(std::filesystem::path(file).extension().string()) == ".x3d") return openX3d(file);
     return Assimp::DefaultIOSystem::Open(file.c_str(), mode);
   }
 
@@ -175,23 +166,12 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
     return name;
   }
 
-  static Assimp::IOStream* openX3d(const std::string& file) {
-    const std::string text =
-        withPlainUrls(readFile(file, "a mesh file"), std::filesystem::path(file).parent_path());
-    auto bytes = std::make_unique<std::uint8_t[]>(text.size());
-    std::copy(text.begin(), text.end(), bytes.get());
-    constexpr bool isOwner = true;
-    return std::make_unique<Assimp::MemoryIOStream>(bytes.release(), text.size(), isOwner)
-        .release();
-  }
-
   const std::string& file_;
   std::vector<std::string>& opened_;
   const bool isObj_ = lowered(std::filesystem::path(file_).extension().string()) == ".obj";
 };
 
-/// Makes faults of the messages in assimp's log that say that it left out geometry, and a note of
-/// the message that says that it left out something, perhaps geometry.
+/// Makes faults of the messages in assimp's log that say that it left out geometry.
 class DropLog : public Assimp::LogStream {
  public:
   DropLog(const std::string& file, ContentReport& report) : file_(file), report_(report) {}
@@ -200,27 +180,9 @@ class DropLog : public Assimp::LogStream {
     for (const char* const sign :
          {"Unable to resolve reference to instanced node", "Unresolved reference format of node",
           "Unable to find geometry for ID", "long message discarded",
-          "encountered duplicate object id", "TRIANGLES mode. Some vertices were dropped"})
+          "TRIANGLES mode. Some vertices were dropped"})
       if (const auto at = text.find(sign); at != text.npos)
         report_.fault(file_, 0, "assimp leaves out geometry: " + text.substr(at));
-    if (text.find("ignoring material assignments") != text.npos)
-      report_.fault(file_, 0,
-                    "assimp may drop polygons because of how their materials are stored; give all "
-                    "polygons one material");
-    if (text.find("Unsupported RotationMode") != text.npos)
-      report_.fault(file_, 0,
-                    "assimp drops rotations of the order SphericXYZ; apply them in the modeller");
-    const std::string twice = "will hide previous value: ";
-    if (const auto at = text.find(twice); at != text.npos) {
-      std::string name = text.substr(at + twice.size());
-      name.resize(name.find_last_not_of(' ') + 1);
-      if (movesGeometryOfFbx(name))
-        report_.fault(
-            file_, 0,
-            "an object has the property \"" + name + "\" twice, and assimp drops one; remove one");
-    }
-    if (text.find("failed to read source object for incoming Model link") != text.npos)
-      report_.note("parts that are no polygons, such as NURBS surfaces, are not read");
   }
 
  private:
@@ -253,15 +215,6 @@ void removeOtherFormats(Assimp::Importer& importer, const std::string& extension
   }
 }
 
-/// Returns the up-axis as in `AssimpImport::up`.
-char upOf(ContentKind kind, const aiScene& scene) {
-  if (kind == ContentKind::Gltf || kind == ContentKind::BinaryGltf || kind == ContentKind::X3d)
-    return 'y';
-  std::int32_t axis = 0;  // only FBX has it
-  if (!scene.mMetaData || !scene.mMetaData->Get("UpAxis", axis) || axis < 0 || axis > 2) return 0;
-  return static_cast<char>('x' + axis);
-}
-
 /// Reads a file, unless a fault of its content is found first.
 void read(const std::string& file, AssimpRules rules, AssimpImport& result, ContentReport& report) {
   const std::string extension = lowered(std::filesystem::path(file).extension().string());
@@ -284,9 +237,6 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
                                    aiProcess_OptimizeGraph
                              : 0u;
   importer.ReadFile(file, steps);
-  if (kind == ContentKind::X3d)
-    for (const std::string& other : result.otherFiles)
-      checkContent(kind, other, readFile(other, "a mesh file"), report);
   const aiScene* const scene = importer.GetScene();
   if (!scene || !scene->mRootNode) {
     result.error = oneLine(importer.GetErrorString());
@@ -298,10 +248,10 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   result.format = description ? description->mName : "unknown";
   if (const auto end = result.format.find(" Importer"); end != std::string::npos)
     result.format.resize(end);
-  checkScene(*scene, file, extension == ".fbx" ? SceneKind::Fbx : SceneKind::Other, report);
+  checkScene(*scene, file, report);
   result.isCollada = result.format.starts_with("Collada");
   if (result.isCollada) checkColladaRoot(*scene, rules);
-  result.up = upOf(kind, *scene);
+  if (kind == ContentKind::Gltf || kind == ContentKind::BinaryGltf) result.up = 'y';
   bool hasLines = false;
   if (rules == AssimpRules::Stored) {
     const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());

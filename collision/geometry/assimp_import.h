@@ -27,8 +27,7 @@ enum class AssimpRules {
 /// The formats that assimp reads for Corridor (README.md gives the reason for each). It is tested
 /// for each of them that vertices arrive as they are stored. assimp has dozens more formats, most
 /// of them unmaintained formats of old games, which robots do not use.
-constexpr std::array<std::string_view, 7> kAssimpFormats{".dae", ".gltf", ".glb", ".fbx",
-                                                         ".x3d", ".3mf",  ".amf"};
+constexpr std::array<std::string_view, 4> kAssimpFormats{".dae", ".gltf", ".glb", ".3mf"};
 /// A format that is read under `AssimpRules::OmplApp` only. assimp lays its meshes on their side
 /// (a stored (x, y, z) arrives as (x, z, -y)) and applies a scale of the file.
 constexpr std::string_view kOmplAppFormat = ".3ds";
@@ -46,16 +45,14 @@ struct AssimpImport {
   std::string format;   ///< assimp's name of the format
   double fileUnit = 0;  ///< metres, not applied to the mesh; 0: the format has none, or `OmplApp`
   bool isCollada = false;
-  /// The up-axis that the format prescribes (glTF, X3D) or the file states (FBX): 'x', 'y' or 'z';
-  /// 0: others. It is not applied.
+  /// The up-axis that the format prescribes: 'y' for glTF; 0: others. It is not applied.
   char up = 0;
   std::string error;  ///< one line; empty: success
   /// Content that assimp does not read rightly (assimp_content.h). If there is any, `mesh` must not
   /// be used.
   std::vector<Fault> faults;
   std::vector<std::string> notes;  ///< on content that is not read, without the file's name
-  /// The files that assimp opened, without the file itself: buffers of glTF, inlined X3D, and
-  /// others.
+  /// The files that assimp opened, without the file itself: buffers of glTF, and others.
   std::vector<std::string> otherFiles;
 };
 

@@ -14,15 +14,15 @@ namespace corridor {
 namespace {
 
 using Index = std::uint32_t;
-using Triangle = std::array<Index, 3>;
+using Indices3 = std::array<Index, 3>;
 
-bool isBefore(const Vec2& p, const Vec2& q) {
+bool isLeftOf(const Vec2& p, const Vec2& q) {
   return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
 }
 
 /// Returns whether a counterclockwise polygon is convex: no corner turns right or back, and the
 /// boundary goes around once, from left to right and back.
-bool isConvex(std::span<const Vec2> points) {
+bool isConvexPolygon(std::span<const Vec2> points) {
   std::vector<Vec2> p(points.begin(), points.end());
   p.erase(std::unique(p.begin(), p.end()), p.end());
   const std::size_t n = p.size() > 1 && p.front() == p.back() ? p.size() - 1 : p.size();
@@ -30,7 +30,7 @@ bool isConvex(std::span<const Vec2> points) {
   int turns = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
-    const bool turnsBack = isBefore(a, b) != isBefore(b, c);
+    const bool turnsBack = isLeftOf(a, b) != isLeftOf(b, c);
     const int side = lineSide(a, b, c);
     if (side < 0 || (side == 0 && turnsBack)) return false;
     turns += turnsBack;
@@ -45,7 +45,7 @@ bool isRightOf(const Vec2& p, const Vec2& q, std::initializer_list<const Vec2*> 
 }
 
 /// A counterclockwise triangle, with the box around it.
-struct Corners {
+struct CutTriangle {
   const Vec2 &a, &b, &c;
   Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
 
@@ -63,7 +63,7 @@ struct Corners {
     return !isApart(p.cwiseMin(q), p.cwiseMax(q)) && !isSeparatedFrom({&p, &q}) &&
            !isRightOf(p, q, {&a, &b, &c}) && !isRightOf(q, p, {&a, &b, &c});
   }
-  bool overlaps(const Corners& o) const {
+  bool overlaps(const CutTriangle& o) const {
     return !isApart(o.low, o.high) && !isSeparatedFrom({&o.a, &o.b, &o.c}) &&
            !o.isSeparatedFrom({&a, &b, &c});
   }
@@ -81,7 +81,7 @@ class EarCutter {
     }
   }
 
-  std::vector<Triangle> run() {
+  std::vector<Indices3> run() {
     for (Index i = 0; i < p_.size() && left_ > 3; ++i)
       if (!isCut(i)) cutFolds(i);
     while (left_ > 3) {
@@ -91,7 +91,7 @@ class EarCutter {
     }
     if (side(at_) < 0) return {};
     triangles_.push_back({previous_[at_], at_, next_[at_]});
-    return overlap() ? std::vector<Triangle>() : std::move(triangles_);
+    return overlap() ? std::vector<Indices3>() : std::move(triangles_);
   }
 
  private:
@@ -100,14 +100,14 @@ class EarCutter {
   /// Returns whether the boundary turns back at a corner, or repeats it: the corner can go.
   bool isFold(Index i) const {
     const Vec2 &a = p_[previous_[i]], &b = p_[i], &c = p_[next_[i]];
-    return a == b || b == c || (side(i) == 0 && isBefore(a, b) == isBefore(c, b));
+    return a == b || b == c || (side(i) == 0 && isLeftOf(a, b) == isLeftOf(c, b));
   }
 
   bool isCut(Index i) const { return next_[previous_[i]] != i; }
 
   bool isEar(Index i) {
     if (side(i) <= 0) return false;
-    const Corners triangle{p_[previous_[i]], p_[i], p_[next_[i]]};
+    const CutTriangle triangle{p_[previous_[i]], p_[i], p_[next_[i]]};
     const auto enters = [&](Index k) { return triangle.isEnteredBy(p_[k], p_[next_[k]]); };
     // The edge that was in the way the last time most often still is.
     if (!isCut(inTheWay_[i]) && enters(inTheWay_[i])) return false;
@@ -155,8 +155,8 @@ class EarCutter {
   /// polygon's, so each point is in as many triangles as the number of times that the boundary
   /// winds about it.
   bool overlap() const {
-    std::vector<Corners> sorted;
-    for (const Triangle& t : triangles_)
+    std::vector<CutTriangle> sorted;
+    for (const Indices3& t : triangles_)
       if (lineSide(p_[t[0]], p_[t[1]], p_[t[2]]) > 0)
         sorted.push_back({p_[t[0]], p_[t[1]], p_[t[2]]});
     std::vector<Index> order(sorted.size());
@@ -175,20 +175,20 @@ class EarCutter {
   std::vector<Index> next_, previous_;
   std::vector<Index> inTheWay_;  // of each corner, an edge that entered its triangle; else any edge
   Index at_ = 0;
-  std::vector<Triangle> triangles_;
+  std::vector<Indices3> triangles_;
 };
 
 /// A polygon of a file, and the plane that fits it best: through the mean of its corners, with the
 /// normal of M. Newell.
-struct Face {
+struct FilePolygon {
   std::vector<Index> vertices;
   std::vector<Vec3> corners;  ///< divided by `size`
   double size = 0;            ///< the largest absolute coordinate
   Vec3 normal = Vec3::Zero();
   double deviation = 0;  ///< the largest distance of a corner from the plane, divided by `size`
 
-  Face(const TriangleMesh& mesh, const PolygonFan& fan) {
-    const Triangle* const triangles = mesh.triangles.data() + fan.firstTriangle;
+  FilePolygon(const TriangleMesh& mesh, const PolygonFan& fan) {
+    const Indices3* const triangles = mesh.triangles.data() + fan.firstTriangle;
     vertices = {triangles[0][0], triangles[0][1]};
     for (Index k = 0; k < fan.triangles; ++k) vertices.push_back(triangles[k][2]);
     for (const Index v : vertices) size = std::max(size, mesh.vertices[v].cwiseAbs().maxCoeff());
@@ -235,7 +235,7 @@ struct Face {
 /// plane that fits them may be off by as much.
 constexpr double kFlatSlack = 1e-5;
 
-std::string nameOf(const PolygonFan& fan) {
+std::string nameOfPolygon(const PolygonFan& fan) {
   return (fan.face > 0 ? "face " + std::to_string(fan.face) + ", a polygon" : "a polygon") +
          " of " + std::to_string(fan.triangles + 2) + " corners, ";
 }
@@ -255,9 +255,9 @@ std::string crossingOf(std::span<const Vec2> p) {
 
 }  // namespace
 
-std::vector<Triangle> trianglesOfPolygon(std::span<const Vec2> corners) {
-  if (!isConvex(corners)) return EarCutter(corners).run();
-  std::vector<Triangle> fan;
+std::vector<Indices3> trianglesOfPolygon(std::span<const Vec2> corners) {
+  if (!isConvexPolygon(corners)) return EarCutter(corners).run();
+  std::vector<Indices3> fan;
   for (Index k = 2; k < corners.size(); ++k) fan.push_back({0, k - 1, k});
   return fan;
 }
@@ -268,7 +268,7 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
   const PolygonFan* mostBent = nullptr;
   double deviation = 0;
   for (const PolygonFan& fan : fans) {
-    const Face face(mesh, fan);
+    const FilePolygon face(mesh, fan);
     const bool isBent = face.deviation > kFlatSlack;
     bent += isBent;
     if (isBent && face.deviation * face.size > deviation) {
@@ -276,17 +276,17 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
       deviation = face.deviation * face.size;
     }
     const std::vector<Vec2> front = face.projected(mesh, true);
-    if (fan.triangles + 2 > kMostPolygonCorners && !isConvex(front)) {
-      faults.add(fan.line, nameOf(fan) + "is not convex, and has more than " +
+    if (fan.triangles + 2 > kMostPolygonCorners && !isConvexPolygon(front)) {
+      faults.add(fan.line, nameOfPolygon(fan) + "is not convex, and has more than " +
                                std::to_string(kMostPolygonCorners) +
                                " corners; save the mesh as triangles");
       continue;
     }
-    std::vector<Triangle> triangles = trianglesOfPolygon(front);
+    std::vector<Indices3> triangles = trianglesOfPolygon(front);
     if (triangles.empty()) triangles = trianglesOfPolygon(face.projected(mesh, false));
     if (triangles.empty() && (isBent || face.isThin(kFlatSlack))) continue;  // stays a fan
     if (triangles.empty())
-      faults.add(fan.line, nameOf(fan) + "crosses or overlaps itself" + crossingOf(front) +
+      faults.add(fan.line, nameOfPolygon(fan) + "crosses or overlaps itself" + crossingOf(front) +
                                "; split it into simple polygons, or into triangles");
     for (std::size_t k = 0; k < triangles.size(); ++k)
       for (std::size_t i = 0; i < 3; ++i)

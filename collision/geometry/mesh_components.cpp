@@ -10,7 +10,7 @@
 namespace corridor {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoComponent = std::numeric_limits<std::uint32_t>::max();
 
 /// One triangle's use of an edge.
 struct Use {
@@ -66,11 +66,11 @@ MeshComponents findComponents(const TriangleMesh& mesh) {
   }
 
   MeshComponents all;
-  all.of.assign(count, kNone);
-  std::vector<std::uint32_t> number(count, kNone);  // the component of each root
+  all.of.assign(count, kNoComponent);
+  std::vector<std::uint32_t> number(count, kNoComponent);  // the component of each root
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t& n = number[sets.root(t)];
-    if (n == kNone) {
+    if (n == kNoComponent) {
       n = static_cast<std::uint32_t>(all.components.size());
       all.components.push_back({t, mesh.corner(t, 0), mesh.corner(t, 0), mesh.corner(t, 0), false});
     }

@@ -77,8 +77,16 @@ bool contains(const std::array<std::string_view, n>& formats, const std::string&
   return std::find(formats.begin(), formats.end(), extension) != formats.end();
 }
 
+/// Formats that assimp reads, but not reliably: it misreads their files in many ways, of which it
+/// reports few.
+constexpr std::array<std::string_view, 3> kMisread{".fbx", ".x3d", ".amf"};
+
 /// Returns the text of the fault for a file with an unsupported extension.
 std::string notRead(const std::string& extension) {
+  if (contains(kMisread, extension))
+    return "the extension " + inQuotes(extension) +
+           " is not supported, because the library that could read it drops or moves parts of such "
+           "files without a message; save the mesh as glTF, Collada, OBJ, STL, PLY or OFF";
   return (extension.empty() ? std::string("a name without an extension")
                             : "the extension " + inQuotes(extension)) +
          " is not supported; save the mesh as OBJ, STL, PLY, OFF or glTF";
@@ -112,7 +120,7 @@ TriangleMesh cutAndWelded(AssimpImport& import, MeshFaults& faults) {
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
   if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
-  if (!unitGiven && (extension == ".3mf" || extension == ".amf")) {
+  if (!unitGiven && extension == ".3mf") {
     faults.fail(0, "the format has a unit, which is not applied; state the unit");
   }
   const std::optional<char> up = requireForAssimp(file, extension, faults);
@@ -193,8 +201,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     }
   }
   result.unitRule = unitRule(options, stored.fileUnit);
-  if ((extension == ".amf" || extension == ".3mf") && stored.fileUnit > 0 &&
-      *options.metresPerUnit != stored.fileUnit)
+  if (extension == ".3mf" && stored.fileUnit > 0 && *options.metresPerUnit != stored.fileUnit)
     result.notes.push_back("the file's own unit, " + shortest(stored.fileUnit) +
                            " m, is not the stated one, " + shortest(*options.metresPerUnit) +
                            " m, which is used");

@@ -13,7 +13,7 @@ namespace corridor {
 /// How to interpret the coordinates of a mesh file.
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit if the format has one, else 1.
-  /// Required for 3MF and AMF, whose own unit is compared with it.
+  /// Required for 3MF, whose own unit is compared with it.
   std::optional<double> metresPerUnit = {};
   /// The file's up-axis ('x', 'y' or 'z'), which is rotated to z. 'y' maps (x, y, z) to (x, -z, y),
   /// and 'x' maps (x, y, z) to (-y, -z, x), as Collada's axes do. Unset: coordinates are not
@@ -27,9 +27,9 @@ struct MeshFile {
   std::string format;  ///< "OBJ", "STL (binary)", "PLY (ASCII)" …, or assimp's name of the format
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
-  /// The up-axis that a Collada or FBX file states ('x', 'y' or 'z'; 'y' if Collada states none);
-  /// 'y' for glTF and X3D. Unset: other formats. By ROS's rule, `readMeshFile` does not apply this
-  /// axis; it applies only the axis that the caller sets in `MeshFileOptions::up`.
+  /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none); 'y' for glTF.
+  /// Unset: other formats. By ROS's rule, `readMeshFile` does not apply this axis; it applies only
+  /// the axis that the caller sets in `MeshFileOptions::up`.
   std::optional<char> fileUp = {};
   bool isCollada = false;
   /// True if assimp read the file, and therefore rounded the vertices to float.
@@ -43,8 +43,8 @@ struct MeshFile {
 };
 
 /// Reads a mesh file. The extension decides which reader is used. Corridor's own readers read OBJ,
-/// STL, PLY and OFF in double. assimp reads Collada, glTF, FBX, X3D, 3MF and AMF, in a process
-/// of its own with limits of time and memory. This function applies scale and rotation once.
+/// STL, PLY and OFF in double. assimp reads Collada, glTF 2.0 and 3MF, in a process of its own with
+/// limits of time and memory. This function applies scale and rotation once.
 /// Queries use the rounded coordinates that result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …

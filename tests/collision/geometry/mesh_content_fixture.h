@@ -19,39 +19,6 @@ inline std::string notRight(const std::string& element) {
   return "<" + element + "> may be or move geometry, and assimp does not read it rightly" + instead;
 }
 
-/// Returns an FBX file of one triangle, the geometry 1 of the model 3. The places: further parts of
-/// the file, objects and connections.
-inline std::string fbx(const std::string& parts, const std::string& objects = "",
-                       const std::string& connections = "") {
-  return R"(; FBX 7.3.0 project file
-FBXHeaderExtension: {
- FBXVersion: 7300
-}
-)" + parts +
-         R"(Definitions: {
- Version: 100
-}
-Objects: {
- Geometry: 1, "Geometry::a", "Mesh" {
-  Vertices: *9 {
-   a: 0,0,0,1,0,0,0,2,0
-  }
-  PolygonVertexIndex: *3 {
-   a: 0,1,-3
-  }
- }
- Model: 3, "Model::a", "Mesh" {
-  Version: 232
- }
-)" + objects +
-         R"(}
-Connections: {
- C: "OO",3,0
- C: "OO",1,3
-)" + connections +
-         "}\n";
-}
-
 class MeshContent : public MeshFileTest {
  protected:
   /// Returns the complaint on a file after its first `words`, which it must begin with.

@@ -1,5 +1,4 @@
-// Numbers of Collada, X3D, FBX and 3DS files that assimp would read as other numbers, and
-// inlined X3D.
+// Numbers of Collada and 3DS files that assimp would read as other numbers.
 #include <gmock/gmock.h>
 
 #include "tests/collision/geometry/mesh_content_fixture.h"
@@ -7,7 +6,6 @@
 namespace corridor::test::mesh_content {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -250,148 +248,6 @@ TEST_F(MeshContent, ColladaElementsThatAreDropped) {
       "<extra><technique profile='x'><Node ID='a'><translation>1 2 3</translation></Node>"
       "</technique></extra>";
   EXPECT_EQ(complaint("a.dae", colladaOf(parts)), "no complaint");
-}
-
-// --- X3D
-
-std::string x3dWith(const std::string& attributes,
-                    const std::string& points = "0 0 0, 1 0 0, 0 2 0") {
-  return "<X3D profile='Interchange' version='3.3'><Scene>\n<Transform " + attributes +
-         "><Shape><IndexedFaceSet coordIndex='0 1 2 -1'><Coordinate point='" + points +
-         "'/></IndexedFaceSet></Shape></Transform></Scene></X3D>";
-}
-
-TEST_F(MeshContent, X3dRotations) {
-  for (const std::string name : {"rotation", "scaleOrientation"}) {
-    for (const std::string axis : {"0 0 10 0.05", "0 0 0 1", "0 0 1.0001 1", "0.577 0.577 0.577 2"})
-      EXPECT_EQ(complaint("a.x3d", x3dWith(name + "='" + axis + "'")),
-                "a.x3d:2: the axis of " + name +
-                    " is not of length 1, and assimp would distort the mesh; write the axis with "
-                    "length 1, with six digits or more")
-          << axis;
-    EXPECT_EQ(read("a.x3d", x3dWith(name + "='0 0 10 0'")).mesh.vertices.at(2), Vec3(0, 2, 0));
-    EXPECT_EQ(complaint("a.x3d", x3dWith(name + "='0 0 1'")),
-              "a.x3d:2: " + name + " has 3 numbers; write 4");
-  }
-}
-
-/// assimp looks for blanks only: of "0,1" it would read 0.
-TEST_F(MeshContent, X3dNumbers) {
-  for (const std::string points : {"0 0 0, 1 0 0, 0 2 0,", "0, 0, 0, 1, 0, 0,\n0, 2, 0 "})
-    EXPECT_EQ(read("a.x3d", x3dWith("", points)).mesh.vertices.at(2), Vec3(0, 2, 0));
-  const std::string blank = " has a word that is no number; put a blank after each comma";
-  for (const std::string points :
-       {"0 0 0,1 0 0,0 2 0,0 0 3", "0 0 0 , 1 0 0 , 0 2 0 , ", "0 0 0 1 0 0 0 2x 0"})
-    EXPECT_EQ(complaint("a.x3d", x3dWith("", points)), "a.x3d:2: point" + blank) << points;
-  for (const std::string name : {"translation", "center", "scale"})
-    EXPECT_EQ(complaint("a.x3d", x3dWith(name + "='1,2 3,4 5,6'")), "a.x3d:2: " + name + blank);
-}
-
-TEST_F(MeshContent, X3dTrianglesAndIndices) {
-  const auto of = [&](const std::string& geometry) {
-    const std::string text = x3dWith("");
-    const auto at = text.find("<Indexed");
-    return complaint("a.x3d", text.substr(0, at) + geometry + text.substr(text.find("</Shape>")));
-  };
-  const std::string three = "<Coordinate DEF='c' point='0 0 0 1 0 0 0 2 0'/>";
-  const std::string four = "<Coordinate DEF='d' point='0 0 0 1 0 0 0 2 0 0 0 3'/>";
-  const auto dropped = [](const std::string& attribute, const std::string& size) {
-    return "a.x3d:2: the numbers of " + attribute +
-           " make no whole triangles, and assimp drops the last ones; write " + size +
-           " numbers for each";
-  };
-  EXPECT_EQ(of("<TriangleSet>" + three + "</TriangleSet>"), "no complaint");
-  EXPECT_EQ(of("<TriangleSet>" + four + "</TriangleSet>"), dropped("point", "9"));
-  EXPECT_EQ(of("<IndexedTriangleSet index='0 1 2'>" + four +
-               "</IndexedTriangleSet></Shape><Shape><TriangleSet><Coordinate USE='d'/>"
-               "</TriangleSet>"),
-            dropped("point", "9"));
-  EXPECT_EQ(of("<IndexedTriangleSet index='0 1 2 0 1'>" + three + "</IndexedTriangleSet>"),
-            dropped("index", "3"));
-  for (const std::string index : {"0 1.0 2 -1", "0 1e0 2 -1", "0 0x1 2 -1"})
-    EXPECT_EQ(of("<IndexedFaceSet coordIndex='" + index + "'>" + three + "</IndexedFaceSet>"),
-              "a.x3d:2: coordIndex may have whole numbers only");
-}
-
-/// XML distinguishes upper and lower case, and assimp skips attributes that it does not know.
-TEST_F(MeshContent, X3dAttributesInAnotherCase) {
-  for (const auto& [other, name] :
-       std::vector<std::pair<std::string, std::string>>{{"Translation", "translation"},
-                                                        {"SCALE", "scale"},
-                                                        {"scaleorientation", "scaleOrientation"},
-                                                        {"use", "USE"}})
-    EXPECT_EQ(complaint("a.x3d", x3dWith(other + "='5 0 0'")),
-              "a.x3d:2: the attribute \"" + other + "\" of <Transform> is not read; write \"" +
-                  name + '"');
-}
-
-TEST_F(MeshContent, X3dInlinesInQuotes) {
-  write("o.x3d", x3dWith("translation='5 0 0'"));
-  write("a b.x3d", x3dWith("translation='5 0 0'"));
-  const auto outer = [](const std::string& url) {
-    std::string text = x3dWith("");
-    return text.insert(text.find("<Transform"), "<Inline url=" + url + "/>");
-  };
-  for (const std::string url :
-       {R"('"o.x3d"')", R"("&quot;o.x3d&quot;")", R"('"missing.x3d" "o.x3d"')",
-        R"('"o.x3d" "http://example.org/o.x3d"')", R"('"o.x3d", "missing.x3d"')",
-        R"('"a b.x3d"')"}) {
-    const MeshFile file = read("a.x3d", outer(url));
-    EXPECT_EQ(file.mesh.triangles.size(), 2u) << url;
-    EXPECT_EQ(file.otherFiles.size(), 1u) << url;
-  }
-  write("o.x3d", x3dWith("rotation='0 0 2 1'"));
-  EXPECT_THAT(complaint("a.x3d", outer(R"('"o.x3d"')")), StartsWith("o.x3d:2: the axis"));
-  EXPECT_THAT(complaint("a.x3d", outer(R"('"missing.x3d"')")), HasSubstr("Failed to open file"));
-}
-
-// --- FBX
-
-TEST_F(MeshContent, FbxVerticesAreRead) {
-  for (const std::string axis : {"0", "1", "2"}) {
-    const std::string settings =
-        "GlobalSettings: {\n Version: 1000\n Properties70: {\n  P: \"UpAxis\", \"int\", "
-        "\"Integer\", \"\"," +
-        axis + "\n }\n}\n";
-    EXPECT_THAT(read("a.fbx", fbx(settings), {1, {}}).mesh.vertices,
-                ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)))
-        << axis;
-  }
-}
-
-/// assimp multiplies the transforms of parents and children, which is the type 1.
-TEST_F(MeshContent, FbxScalesThatAreNotInherited) {
-  const auto fault = [&](const std::string& type, const std::string& scale) {
-    return complaint("a.fbx", fbx("",
-                                  R"( Model: 4, "Model::b", "Null" {
-  Version: 232
-  Properties70: {
-   P: "Lcl Scaling", "Lcl Scaling", "", "A",)" +
-                                      scale + R"(
-  }
- }
- Model: 5, "Model::c", "Mesh" {
-  Version: 232
-  Properties70: {
-   P: "Lcl Translation", "Lcl Translation", "", "A",1,2,3
-)" + (type.empty() ? "" : "   P: \"InheritType\", \"enum\", \"\", \"\"," + type + "\n") +
-                                      R"(  }
- }
-)",
-                                  " C: \"OO\",4,0\n C: \"OO\",5,4\n C: \"OO\",1,5\n"));
-  };
-  const auto text = [](const std::string& type) {
-    return "a.fbx: the node \"c\" inherits the scale of its parents otherwise than assimp reads it "
-           "(InheritType " +
-           type + "); apply the scales in the modeller";
-  };
-  const std::string alike = "2,2,2", different = "1,1,2";
-  EXPECT_EQ(fault("2", alike), text("2"));
-  EXPECT_EQ(fault("2", "1,1,1"), "no complaint");
-  EXPECT_EQ(fault("0", different), text("0"));
-  EXPECT_EQ(fault("", different), text("0")) << "the default";
-  EXPECT_EQ(fault("0", alike), "no complaint");
-  EXPECT_EQ(fault("1", different), "no complaint");
 }
 
 // --- 3DS

@@ -65,15 +65,20 @@ TEST_F(Gltf, OptionalExtensions) {
               IsEmpty());
 }
 
+/// Returns a GLB file: its buffer holds the corners. @param type that of the first chunk
+std::string glb(std::string json, std::uint32_t version = 2, const std::string& type = "JSON") {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto size = static_cast<std::uint32_t>(json.size());
+  std::string corners;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 2.f, 0.f}) corners += bytesOf(x);
+  return "glTF" + bytesOf(version) + bytesOf(size + 64) + bytesOf(size) + type + json +
+         bytesOf(std::uint32_t{36}) + std::string("BIN\0", 4) + corners;
+}
+
 TEST_F(Gltf, ExtensionsOfBinaryFiles) {
   const auto binary = [](std::string json, bool hasUri = false) {
     if (!hasUri) json.erase(json.find("\"uri\": \"a.bin\", "), 16);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const auto size = static_cast<std::uint32_t>(json.size());
-    std::string corners;
-    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 2.f, 0.f}) corners += bytesOf(x);
-    return "glTF" + bytesOf(std::uint32_t{2}) + bytesOf(size + 64) + bytesOf(size) + "JSON" + json +
-           bytesOf(std::uint32_t{36}) + std::string("BIN\0", 4) + corners;
+    return glb(json);
   };
   EXPECT_EQ(read("a.glb", binary(gltf())).mesh.triangles.size(), 1u);
   EXPECT_EQ(
@@ -172,6 +177,51 @@ TEST_F(Gltf, TrianglesAreCounted) {
             "the mode of a primitive is 7; 0 to 6 is needed");
 }
 
+TEST_F(Gltf, VersionsOtherThan2) {
+  const auto asset = [](const std::string& members) {
+    return with(gltf(), R"({"version": "2.0"})", "{" + members + "}");
+  };
+  const auto version = [&](const std::string& text) { return asset("\"version\": " + text); };
+  const std::string end = " is not supported; save the mesh as glTF 2.0";
+  for (const std::string text : {"1.0", "1.1", "3.0", "20.0", " 2.0", "2,0"})
+    EXPECT_EQ(fault(version('"' + text + '"')), "glTF " + text + end);
+  for (const std::string text : {"2.0", "2.1", "2"})
+    EXPECT_EQ(read("a.gltf", version('"' + text + '"')).mesh.triangles.size(), 1u) << text;
+  const std::string none = "glTF without a version such as \"2.0\" in its asset" + end;
+  for (const std::string text : {"2.0", "2", "null", "\"\"", "[\"2.0\"]"})
+    EXPECT_EQ(fault(version(text)), none) << text;
+  EXPECT_EQ(fault(asset("")), none);
+  EXPECT_EQ(fault(with(gltf(), R"("asset": {"version": "2.0"}, )", "")), none);
+  EXPECT_EQ(fault(with(gltf(), R"({"version": "2.0"})", "\"2.0\"")), none);
+  // In version 1, lists are objects, whose keys are names.
+  EXPECT_EQ(fault(R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": []}}})"),
+            "glTF 1.0" + end);
+  for (const std::string list :
+       {"accessors", "bufferViews", "buffers", "meshes", "nodes", "scenes"})
+    EXPECT_EQ(fault("{\"asset\": {\"version\": \"2.0\"}, \"" + list + "\": {\"a\": {}}}"),
+              '"' + list + "\" is not an array");
+}
+
+TEST_F(Gltf, VersionsOfBinaryFiles) {
+  const std::string json = with(gltf(), "\"uri\": \"a.bin\", ", "");
+  const std::string end = " is not supported; save the mesh as glTF 2.0";
+  EXPECT_EQ(complaint("a.glb", glb(json)), "no complaint");
+  EXPECT_EQ(complaint("a.glb", glb(json, 1, std::string(4, '\0'))), "a.glb: binary glTF 1" + end);
+  EXPECT_EQ(complaint("a.glb", glb(json, 3)), "a.glb: binary glTF 3" + end);
+  EXPECT_EQ(complaint("a.glb", glb(with(json, "2.0", "1.0"))), "a.glb: glTF 1.0" + end);
+  for (const std::string& type : {std::string("BIN\0", 4), std::string(4, '\0')})
+    EXPECT_EQ(complaint("a.glb", glb(json, 2, type)),
+              "a.glb: the first chunk of a GLB file must be JSON; save the file again");
+}
+
+TEST_F(Gltf, UpAxis) {
+  const MeshFile file = read("a.gltf", gltf());
+  EXPECT_EQ(file.fileUp, 'y');
+  EXPECT_EQ(file.upRule,
+            "coordinates as stored, since no up-axis was requested; the file's own, y, is not "
+            "applied");
+}
+
 /// assimp reads other values as 0, or skips what they belong to.
 TEST_F(Gltf, WholeNumbersAndIndices) {
   const std::string second = R"({"mesh": 0}, {"mesh": 0, "children": []})";
@@ -267,54 +317,6 @@ TEST_F(Gltf, NumbersOutOfRange) {
             "no valid JSON: a number is beyond the range of doubles; correct it");
 }
 
-/// Returns a file of version 1. @param uri the buffer's name and address. @param stride of the
-/// accessor.
-std::string gltf1(const std::string& node, const std::string& name = "b",
-                  const std::string& uri = "a.bin", const std::string& stride = "12",
-                  const std::string& bytes = "36", const std::string& count = "3") {
-  return R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n"]}},
-"nodes": {"n": {"meshes": ["m"])" +
-         node + R"(}}, "meshes": {"m": {"primitives": [{"attributes": {"POSITION": "a"}}]}},
-"buffers": {")" +
-         name + R"(": {"uri": ")" + uri + R"(", "byteLength": )" + bytes +
-         R"(, "type": "arraybuffer"}},
-"bufferViews": {"v": {"buffer": ")" +
-         name + R"(", "byteOffset": 0, "byteLength": )" + bytes + R"(}},
-"accessors": {"a": {"bufferView": "v", "byteOffset": 0, "byteStride": )" +
-         stride + R"(, "componentType": 5126, "count": )" + count + R"(, "type": "VEC3"}}})";
-}
-
-TEST_F(Gltf, TransformsOfVersion1) {
-  const auto of = [&](const std::string& node) { return complaint("a.gltf", gltf1(node)); };
-  const auto order = StartsWith("a.gltf: a node of glTF 1.0 has a translation and a rotation or");
-  for (const std::string node :
-       {R"(, "translation": [1, 0, 0])", R"(, "scale": [2, 2, 2])",
-        R"(, "translation": [1, 0, 0], "rotation": [0, 0, 0, 1], "scale": [1, 1, 1])",
-        R"(, "translation": [0, 0, 0], "rotation": [1, 0, 0, 0])"})
-    EXPECT_EQ(of(node), "no complaint") << node;
-  EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "scale": [2, 2, 2])"), order);
-  EXPECT_THAT(of(R"(, "translation": [1, 0, 0], "rotation": [1, 0, 0, 0])"), order);
-}
-
-TEST_F(Gltf, DataOfVersion1) {
-  for (const std::string stride : {"12.0", "9223372036854775808"})
-    EXPECT_THAT(complaint("a.gltf", gltf1("", "b", "a.bin", stride)),
-                StartsWith("a.gltf: \"byteStride\" is "));
-  // A binary file: the body is the buffer, whatever its byteLength.
-  const auto binary = [](std::string json) {
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const auto size = static_cast<std::uint32_t>(json.size());
-    return "glTF" + bytesOf(std::uint32_t{1}) + bytesOf(size + 56) + bytesOf(size) +
-           bytesOf(std::uint32_t{0}) + json + std::string(36, '\0');
-  };
-  const std::string used = R"(, "extensionsUsed": ["KHR_binary_glTF"]})";
-  std::string json = gltf1("", "binary_glTF", "data:;base64,", "12", "3600", "300");
-  json.pop_back();
-  EXPECT_EQ(complaint("a.glb", binary(json + used)),
-            "a.glb: the bufferView of POSITION (accessor \"a\") lies beyond the byteLength of its "
-            "buffer; correct its byteOffset or byteLength");
-}
-
 TEST_F(Gltf, DataThatAreNotBase64) {
   // 36 bytes of zeros, except the floats 1 and 2.
   const std::string good = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAA";
@@ -368,28 +370,6 @@ TEST_F(Gltf, OtherFilesAreListed) {
   EXPECT_THAT(read("a.gltf", gltf()).otherFiles, ElementsAre((folder_ / "a.bin").string()));
   EXPECT_THAT(readOmplAppMesh(folder_ / "a.gltf").otherFiles,
               ElementsAre((folder_ / "a.bin").string()));
-}
-
-// --- FBX
-
-TEST_F(MeshContent, FbxSurfacesThatAreNoPolygons) {
-  const auto withSecond = [](const std::string& geometry) {
-    return fbx("", R"( Geometry: 2, "Geometry::b", "NurbsSurface" {
-  Version: 100
- }
- Model: 4, "Model::b", "Mesh" {
-  Version: 232
- }
-)",
-               " C: \"OO\",4,0\n C: \"OO\"," + geometry + ",4\n");
-  };
-  const std::string always =
-      "an FBX file is not searched for geometry that no model uses and properties of unusual "
-      "types, which are not read";
-  EXPECT_THAT(
-      notesOf("a.fbx", withSecond("2")),
-      ElementsAre("parts that are no polygons, such as NURBS surfaces, are not read", always));
-  EXPECT_THAT(notesOf("a.fbx", withSecond("1")), ElementsAre(always));
 }
 
 // --- Corridor's own readers

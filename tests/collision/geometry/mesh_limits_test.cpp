@@ -2,6 +2,7 @@
 // must not allocate more memory than the size of the file justifies.
 #include <gmock/gmock.h>
 
+#include "collision/core/spelling.h"
 #include "planner/jobs/child_process.h"
 #include "tests/collision/geometry/mesh_fixture.h"
 
@@ -151,6 +152,19 @@ TEST_F(MeshLimits, OnlySupportedExtensions) {
     EXPECT_THROW(readOmplAppMesh(write("a" + std::string(extension), off)), InputError);
   }
   EXPECT_EQ(complaint("mesh", off), "mesh: a name without an extension" + formats);
+}
+
+TEST_F(MeshLimits, FormatsThatAssimpMisreads) {
+  for (const std::string extension : {".fbx", ".x3d", ".amf", ".FBX"}) {
+    const std::string name = "a" + extension;
+    EXPECT_EQ(complaint(name, "x"),
+              name + ": the extension \"" + lowered(extension) +
+                  "\" is not supported, because the library that could read it drops or moves "
+                  "parts of such files without a message; save the mesh as glTF, Collada, OBJ, "
+                  "STL, PLY or OFF");
+    EXPECT_THAT(complaintOf([&] { readOmplAppMesh(folder_ / name); }),
+                testing::HasSubstr("drops or moves parts of such files"));
+  }
 }
 
 }  // namespace

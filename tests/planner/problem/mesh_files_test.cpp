@@ -120,8 +120,15 @@ TEST_F(MeshFiles, UpAxesOfTheWorld) {
   EXPECT_THAT(notesOf("convex: m.gltf"), hull);
   EXPECT_THAT(notesOf("mesh: m.gltf"), testing::Not(hull));
   EXPECT_THAT(notesOf("convex: wedge.obj"), testing::Not(hull));
-  write("b.x3d", "<X3D><Scene><Shape><Box size='1 1 1'/></Shape></Scene></X3D>");
-  EXPECT_THAT(notesOf("mesh: b.x3d, convex: true, deviation: 9"),
+  write("b.gltf",
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+"nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+"buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)"
+        R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAIBAAEDAQIDAAMC"}],
+"bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+{"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}]})");
+  EXPECT_THAT(notesOf("mesh: b.gltf, convex: true, deviation: 9"),
               testing::Contains(testing::HasSubstr("up: y applies it: ")));
   for (const std::string up : {"y", "z"})
     EXPECT_THAT(notesOf("mesh: m.gltf, up: " + up),

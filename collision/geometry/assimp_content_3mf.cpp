@@ -1,25 +1,11 @@
-// The formats of 3D printing: AMF, and the model in 3MF archives.
+// The model in 3MF archives.
 #include <algorithm>
 #include <cmath>
 
-#include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content_xml.h"
 
 namespace corridor {
 namespace {
-
-/// Left out: constellations, which assimp moves by angles instead of lengths, and normals and
-/// edges, which make triangles curved.
-constexpr XmlRules kAmf{
-    "amf",
-    " amf object mesh vertices vertex coordinates x y z volume triangle v1 v2 "
-    "v3 metadata material color r g b a composite texture texmap map utex1 "
-    "utex2 utex3 vtex1 vtex2 vtex3 u1 u2 u3 ",
-    "",
-    " object ",
-    " mesh vertices volume coordinates x y z v1 v2 v3 ",
-    " object/amf mesh/object vertices/mesh vertex/vertices coordinates/vertex x/coordinates "
-    "y/coordinates z/coordinates volume/mesh triangle/volume v1/triangle v2/triangle v3/triangle "};
 
 /// The elements of 3MF's core, and those in which Cura writes its settings. `numbered` is empty,
 /// because all resources share their ids.
@@ -41,18 +27,6 @@ constexpr std::string_view kLooksOfThreeMf =
     "pbmetallictexturedisplayproperties translucent translucentdisplayproperties trianglesets "
     "triangleset ref refrange ";
 
-/// Returns AMF's unit in metres; 0 if it is unknown, and assimp refuses it. It is 1 mm if none is
-/// stated (ISO/ASTM 52915). Like assimp, this function ignores the case of letters.
-double amfUnit(std::string_view text) {
-  const std::string name = lowered(text);
-  return name.empty() || name == "millimeter" || name == "millimeters" ? 0.001
-         : name == "inch"                                              ? 0.0254
-         : name == "feet"                                              ? 0.3048
-         : name == "meter"                                             ? 1
-         : name == "micron"                                            ? 1e-6
-                                                                       : 0;
-}
-
 /// Returns 3MF's unit in metres; 0 if it is unknown.
 double threeMfUnit(std::string_view name) {
   return name == "millimeter"   ? 0.001
@@ -63,28 +37,6 @@ double threeMfUnit(std::string_view name) {
          : name == "meter"      ? 1
                                 : 0;
 }
-
-class AmfCheck : public XmlCheck {
- public:
-  using XmlCheck::XmlCheck;
-
- private:
-  void enter(const XmlTag& tag) override {
-    checkCase(tag, {"unit", "id"});
-    if (open_.empty()) report_.fileUnit = amfUnit(tag.value("unit"));
-  }
-
-  void leave(const XmlTag& tag) override {
-    const std::string name(tag.name);
-    if (isListed(" x y z ", name) && std::isnan(numberIn(tag.content)))
-      fault(tag.line, "<" + name + "> is not a number" + kDecimals);
-    if (isListed(" v1 v2 v3 ", name) && wholeNumberIn(tag.content) < 0)
-      fault(tag.line, "<" + name + "> is not a whole number from 0 to 2^31 - 1");
-    if (name == "vertex") require(tag, {"coordinates"});
-    if (name == "coordinates") require(tag, {"x", "y", "z"});
-    if (name == "triangle") require(tag, {"v1", "v2", "v3"});
-  }
-};
 
 class ThreeMfCheck : public XmlCheck {
  public:
@@ -178,10 +130,6 @@ class ThreeMfCheck : public XmlCheck {
 };
 
 }  // namespace
-
-void checkAmf(const std::string& file, std::string_view text, ContentReport& report) {
-  AmfCheck(kAmf, file, text, report).run();
-}
 
 void checkThreeMfModel(const std::string& file, std::string_view text, ContentReport& report) {
   ThreeMfCheck(kThreeMf, file, text, report).run();

@@ -1,4 +1,4 @@
-// What files for 3D printing (AMF, 3MF) hold beyond the triangles that are read.
+// What 3MF files hold beyond the triangles that are read.
 #include <gmock/gmock.h>
 
 #include "tests/collision/geometry/mesh_content_fixture.h"
@@ -11,45 +11,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const MeshFileOptions inMetre{1, {}};
-
-// --- AMF
-
-/// Returns an AMF file of one triangle. @param z its last coordinate @param corner its last corner
-std::string amfWith(const std::string& z, const std::string& corner) {
-  const auto vertex = [](const std::string& x, const std::string& y, const std::string& rest) {
-    return "<vertex><coordinates><x>" + x + "</x><y>" + y + "</y>" + rest +
-           "</coordinates></vertex>";
-  };
-  return "<amf unit=\"meter\"><object id=\"0\"><mesh><vertices>" + vertex("0", "0", "<z>0</z>") +
-         vertex("1", "0", "<z>0</z>") + "\n" + vertex("0", "2", z) +
-         "</vertices><volume>\n<triangle><v1>0</v1><v2>1</v2>" + corner +
-         "</triangle></volume></mesh></object></amf>";
-}
-
-TEST_F(MeshContent, AmfPartsThatAreMissingOrTwice) {
-  const std::string z = "<z>3</z>", v3 = "<v3>2</v3>";
-  const auto fault = [&](const std::string& a, const std::string& b) {
-    return complaint("a.amf", amfWith(a, b), inMetre);
-  };
-  EXPECT_EQ(read("a.amf", amfWith(z, v3), inMetre).mesh.vertices.at(2), Vec3(0, 2, 3));
-  EXPECT_EQ(fault("", v3), "a.amf:2: <coordinates> has no <z>; add it");
-  EXPECT_EQ(fault(z, ""), "a.amf:3: <triangle> has no <v3>; add it");
-  EXPECT_EQ(fault(z + "<x>7</x>", v3),
-            "a.amf:2: a second <x> is in one <coordinates>, and assimp drops one" + instead);
-  EXPECT_EQ(fault(z, v3 + "<v3>1</v3>"),
-            "a.amf:3: a second <v3> is in one <triangle>, and assimp drops one" + instead);
-  EXPECT_EQ(fault(z + "</coordinates></vertex><vertex><coordinates><x>1</x><y>1</y>" + z +
-                      "</coordinates><coordinates><x>9</x><y>9</y>" + z,
-                  v3),
-            "a.amf:2: a second <coordinates> is in one <vertex>, and assimp drops one" + instead);
-  for (const std::string corner : {"1.5", "-1", "a", "1<!-- -->2"})
-    EXPECT_EQ(fault(z, "<v3>" + corner + "</v3>"),
-              "a.amf:3: <v3> is not a whole number from 0 to 2^31 - 1")
-        << corner;
-  EXPECT_EQ(fault(z, v3 + "<vertex/>"), "a.amf:3: " + notRight("vertex"));
-}
-
-// --- 3MF
 
 /// Returns a ZIP archive of files, which are not packed. @param files pairs of name and content
 std::string archive(const std::vector<std::pair<std::string, std::string>>& files) {
@@ -96,6 +57,7 @@ TEST_F(MeshContent, ThreeMfArchives) {
   const MeshFile file = read("a.3mf", threeMf("unit=\"meter\""), inMetre);
   EXPECT_THAT(file.mesh.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)));
   EXPECT_THAT(file.notes, IsEmpty());
+  EXPECT_EQ(file.fileUp, std::nullopt);
   const auto fault = [&](const std::vector<std::pair<std::string, std::string>>& files) {
     return complaint("a.3mf", archive(files), inMetre);
   };
@@ -109,8 +71,10 @@ TEST_F(MeshContent, ThreeMfArchives) {
   EXPECT_EQ(fault({{"3D/3dmodel.model", "<model/>"}}), noModel);
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other.model", "<model/>"}}), noModel)
       << "a model that is not the one that assimp reads";
-  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<amf/>"}}),
+  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<other/>"}}),
             model + ": its model is no complete XML file whose root is <model>");
+  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<model></model>\n<x/>"}}),
+            model + ":2: <x> is a second root; the file needs one root, <model>");
   EXPECT_EQ(complaint("a.3mf", "hello", inMetre), "a.3mf: the file is no ZIP archive" + instead);
   std::string damaged = threeMf("");
   damaged.replace(damaged.find("<vertices>"), 1, "[");
@@ -133,6 +97,9 @@ TEST_F(MeshContent, ThreeMfUnits) {
     EXPECT_THAT(notes(unit, metre), IsEmpty()) << unit;
     EXPECT_THAT(notes(unit, 2), ElementsAre(HasSubstr("which is used"))) << unit;
   }
+  EXPECT_THAT(notes("", 1),
+              ElementsAre("the file's own unit, 0.001 m, is not the stated one, 1 m, which is "
+                          "used"));
   EXPECT_EQ(complaint("a.3mf", threeMf("unit=\"Inch\""), inMetre),
             model +
                 ":1: the unit \"Inch\" is not one of 3MF; write micron, millimeter, centimeter, "
@@ -190,10 +157,17 @@ TEST_F(MeshContent, ThreeMfElements) {
   };
   EXPECT_EQ(fault(object("x=\"0\" y=\"0\"", "0")),
             model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3");
-  EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0,5\"", "0")),
-            model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3");
-  EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\"", "0.5")),
-            model + ":4: <triangle> has no whole number v3 from 0 to 2^31 - 1");
+  for (const std::string z : {"0,5", "", "half", "1 2", "0x1"})
+    EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"" + z + "\"", "0")),
+              model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3")
+        << z;
+  EXPECT_EQ(fault(object("x=\"0\" y=\"+.5\" z=\" 5e-1\n\"", "0")), "no complaint");
+  for (const std::string corner : {"0.5", "-1", "zero", "2147483648", "4294967296"})
+    EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\"", corner)),
+              model + ":4: <triangle> has no whole number v3 from 0 to 2^31 - 1")
+        << corner;
+  EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\" x=\"0\"", "0")),
+            model + ":4: <vertex> has the attribute \"x\" twice; keep one");
 }
 
 }  // namespace
