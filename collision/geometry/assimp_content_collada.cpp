@@ -109,6 +109,9 @@ class ColladaCheck : public XmlCheck {
       nodes_.push_back(tag);
     }
     if (tag.name == "instance_node") instanced_.insert(tag.value("url"));
+    if (isListed(" instance_node instance_geometry instance_visual_scene ", tag.name) &&
+        !tag.find("url"))
+      fault(tag.line, "<" + std::string(tag.name) + "> has no url; add it, or remove the element");
     if (isListed(" geometry visual_scene ", tag.name) || (tag.name == "node" && isInLibrary))
       targets_.insert(tag.value("id"));
     if (const std::string_view url = tag.value("url");
@@ -217,16 +220,23 @@ class ColladaCheck : public XmlCheck {
   /// Checks the numbers of an array: of "0.3d1", assimp reads 0.3 and 1.
   void checkDecimals(const XmlTag& array) {
     std::string_view rest = array.content;
-    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
+    long numbers = 0;
+    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++numbers)
       if (word.find(',') == word.npos && std::isnan(numberIn(word)))
         return fault(array.line, "<float_array> has \"" + std::string(word.substr(0, 32)) +
                                      "\", which is no decimal number" + kDecimals);
-    if (array.content.find(',') == array.content.npos) checkDigits(array);
+    if (array.content.find(',') != array.content.npos) return;  // a fault of its own
+    if (numbers != wholeNumberIn(array.value("count")))
+      fault(array.line, "<float_array> has " + std::to_string(numbers) +
+                            " numbers, and the count is \"" + std::string(array.value("count")) +
+                            "\"; correct one of them");
+    checkDigits(array);
+    for (const double number : numbersIn(array.content))
+      largestPosition_ = std::max(largestPosition_, std::abs(number));
   }
 
-  /// Checks that assimp reads an element's numbers as they are.
-  void checkDigits(const XmlTag& tag) {
-    double largest = 0;
+  /// Checks that assimp reads an element's numbers as they are, up to 1e-14 of the largest one.
+  void checkDigits(const XmlTag& tag, double largest = 0) {
     for (const double number : numbersIn(tag.content))
       largest = std::max(largest, std::abs(number));
     std::string_view rest = tag.content;
@@ -269,7 +279,12 @@ class ColladaCheck : public XmlCheck {
         std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
       return fault(tag.line, "<" + std::string(tag.name) + "> needs " + std::to_string(size) +
                                  " decimal numbers");
-    checkDigits(tag);
+    if (tag.name == "translate") {
+      translations_.push_back(tag);
+    } else {
+      checkDigits(tag);
+      mayScale_ |= tag.name != "rotate";
+    }
     if (tag.name == "rotate" && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
       fault(tag.line,
             "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
@@ -304,6 +319,7 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "unit" &&
         !isReadRightly(withoutBlanks(tag.find("meter").value_or("1")), unit, 0))
       fault(tag.line, "<unit> has a meter" + std::string(kDigits));
+    if (tag.name == "unit") noteUnitName(tag.value("name"), unit);
     hasInnerAsset_ |= depth > 3;
     if (hasInnerAsset_ && (unit != unit_ || up != up_))
       fault(tag.line, "an <asset> within the document has another <" + std::string(tag.name) +
@@ -312,7 +328,25 @@ class ColladaCheck : public XmlCheck {
     up_ = up;
   }
 
+  /// Notes a unit whose name belongs to another length: the length counts.
+  void noteUnitName(std::string_view name, double metres) {
+    constexpr std::array<std::pair<std::string_view, double>, 6> kNames{{{"meter", 1},
+                                                                         {"decimeter", 0.1},
+                                                                         {"centimeter", 0.01},
+                                                                         {"millimeter", 0.001},
+                                                                         {"inch", 0.0254},
+                                                                         {"foot", 0.3048}}};
+    for (const auto& [known, length] : kNames)
+      if (known == name && std::abs(metres - length) > 1e-3 * length)
+        report_.note("<unit name=\"" + std::string(name) +
+                     "\"> has the meter of another unit, which is used");
+  }
+
   void end() override {
+    // Programs write translations of 5.5e-17 for 0. They cannot matter beside the rounding of
+    // positions to floats, unless scales make the positions small.
+    for (const XmlTag& translation : translations_)
+      checkDigits(translation, mayScale_ ? 0 : largestPosition_);
     // assimp looks for the name before the id.
     for (const XmlTag& node : nodes_)
       if (const std::string url = "#" + std::string(node.value("name"));
@@ -329,6 +363,9 @@ class ColladaCheck : public XmlCheck {
   double unit_ = 1;
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
+  std::vector<XmlTag> translations_;
+  bool mayScale_ = false;  // there is a transform other than <translate> and <rotate>
+  double largestPosition_ = 0;
   std::set<std::string_view> targets_, urls_, instanced_;
   std::vector<XmlTag> nodes_;
   // The last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.

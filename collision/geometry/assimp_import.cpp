@@ -143,7 +143,13 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
     return ::stat(file, &status) == 0 && S_ISREG(status.st_mode);
   }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    const std::string file = Exists(name) ? name : decoded(name);
+    std::string file = name;
+    if (const std::size_t folder = file_.rfind('/') + 1;  // 0 without a folder
+        file != file_ && file.starts_with(file_.substr(0, folder))) {
+      // By the format, the name is encoded. Some programs write it as it is.
+      file = file_.substr(0, folder) + decoded(file.substr(folder));
+      if (!Exists(file.c_str())) file = name;
+    }
     if (!Exists(file.c_str())) return nullptr;
     if (file != file_ && !isObj_ &&
         std::find(opened_.begin(), opened_.end(), file) == opened_.end())

@@ -120,11 +120,11 @@ TriangleMesh cutAndWelded(AssimpImport& import, MeshFaults& faults) {
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
   if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
-  if (!unitGiven && extension == ".3mf") {
-    faults.fail(0, "the format has a unit, which is not applied; state the unit");
-  }
   const std::optional<char> up = requireForAssimp(file, extension, faults);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
+  if (!unitGiven && extension == ".3mf")
+    faults.fail(0, "the file has a unit, " + shortest(import.fileUnit) +
+                       " m, which is not applied; state the unit" + howToState(import.fileUnit));
   StoredMesh stored;
   stored.file.mesh = cutAndWelded(import, faults);
   stored.file.format = std::move(import.format);

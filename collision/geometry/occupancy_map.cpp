@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "collision/core/read_file.h"
@@ -107,12 +108,18 @@ class MapReader {
     map_.format = binary_ ? "OctoMap (.bt)" : "OctoMap (.ot)";
     std::string id;
     std::optional<std::int64_t> size;
+    std::set<std::string> known;
     for (;;) {
       if (!cursor_.nextLine()) faults_.fail(cursor_.line(), "the header has no line \"data\"");
       const std::string_view word = cursor_.wordInLine();
       if (word.empty() || word.front() == '#') continue;
       if (word == "data") break;
       const std::string_view value = cursor_.wordInLine();
+      if (const std::string_view more = cursor_.wordInLine(); !more.empty())
+        faults_.fail(cursor_.line(), inQuotes(more) + " comes after the value of " +
+                                         inQuotes(word) + "; one value is needed");
+      if (!known.insert(std::string(word)).second)
+        faults_.fail(cursor_.line(), "the header has a second line " + inQuotes(word));
       std::int64_t number = 0;
       if (word == "id") {
         id = value;

@@ -171,6 +171,10 @@ void XmlFile::open(const std::string& what, const std::vector<std::string>& xacr
                      (error != tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED && isUnclosed(text)
                           ? "; there is no </robot>, so the file may end early"
                           : ""));
+  for (const auto* node = document_.FirstChild(); node; node = node->NextSibling())
+    if (node->ToUnknown() && std::string_view(node->Value()).find('[') != std::string_view::npos)
+      return fault(node->GetLineNum(),
+                   "a DOCTYPE with declarations is not read; save the file without it");
   Element* const first = document_.RootElement();
   if (!first) return fault(0, "<robot> is missing; " + what + " is needed");
   if (std::string_view(first->Name()) != "robot")

@@ -58,6 +58,8 @@ TEST_F(MeshContent, ThreeMfArchives) {
   EXPECT_THAT(file.mesh.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)));
   EXPECT_THAT(file.notes, IsEmpty());
   EXPECT_EQ(file.fileUp, std::nullopt);
+  EXPECT_EQ(complaint("a.3mf", threeMf("unit=\"millimeter\"")),
+            "a.3mf: the file has a unit, 0.001 m, which is not applied; state the unit (unit: mm)");
   const auto fault = [&](const std::vector<std::pair<std::string, std::string>>& files) {
     return complaint("a.3mf", archive(files), inMetre);
   };

@@ -68,6 +68,43 @@ TEST_F(MeshContent, ColladaReferences) {
             "id of its own");
 }
 
+TEST_F(MeshContent, ColladaCountsAndUrls) {
+  EXPECT_EQ(complaint("a.dae", collada("<instance_node/>")),
+            "a.dae:8: <instance_node> has no url; add it, or remove the element");
+  std::string longer = collada();
+  longer.replace(longer.find("0 2 0<"), 6, "0 2 0 7<");
+  EXPECT_EQ(complaint("a.dae", longer),
+            "a.dae:4: <float_array> has 10 numbers, and the count is \"9\"; correct one of them");
+}
+
+/// Programs write such numbers for 0. Where scales make the mesh small, they may matter.
+TEST_F(MeshContent, ColladaTranslationsNearZero) {
+  const auto moved = [](const std::string& transform) {
+    return collada("<node>" + transform + "<instance_geometry url=\"#g\"/></node>");
+  };
+  const std::string tiny = "<translate>5.5e-17 0 -2.2e-16</translate>";
+  EXPECT_EQ(complaint("a.dae", moved(tiny)), "no complaint");
+  const std::string misread =
+      ", which assimp misreads; write decimal numbers with at most 15 digits";
+  EXPECT_EQ(complaint("a.dae", moved(tiny + "<scale>1 1 1e-9</scale>")),
+            "a.dae:8: <translate> has \"5.5e-17\"" + misread);
+  EXPECT_EQ(complaint("a.dae", moved("<translate>0 0 1.5e-13</translate>")),
+            "a.dae:8: <translate> has \"1.5e-13\"" + misread);
+}
+
+TEST_F(MeshContent, ColladaUnitsOfOtherNames) {
+  const auto unit = [](const std::string& name, const std::string& metres) {
+    std::string file = collada();
+    return file.replace(file.find("<asset/>"), 8,
+                        "<asset><unit name=\"" + name + "\" meter=\"" + metres + "\"/></asset>");
+  };
+  EXPECT_THAT(notesOf("a.dae", unit("centimeter", "0.01")), IsEmpty());
+  EXPECT_THAT(notesOf("a.dae", unit("mesh unit", "0.5")), IsEmpty());
+  EXPECT_THAT(
+      notesOf("a.dae", unit("centimeter", "1")),
+      ElementsAre("<unit name=\"centimeter\"> has the meter of another unit, which is used"));
+}
+
 /// assimp takes the last of two nodes with one id, and a node's name before another one's id.
 TEST_F(MeshContent, ColladaIdsAndNamesOfNodes) {
   EXPECT_EQ(

@@ -90,6 +90,17 @@ TEST_F(MeshContent, GltfNamesWithBytesInHexadecimal) {
   write("a%2b.bin", numbers);
   EXPECT_THAT(read("a.gltf", gltf("a%2b.bin")).otherFiles,
               ElementsAre((folder_ / "a%2b.bin").string()));
+  // Where both names exist, the format's rule counts.
+  write("a+.bin", numbers);
+  EXPECT_THAT(read("a.gltf", gltf("a%2b.bin")).otherFiles,
+              ElementsAre((folder_ / "a+.bin").string()));
+  // Names of folders are not encoded.
+  std::filesystem::create_directories(folder_ / "b%20c");
+  std::filesystem::create_directories(folder_ / "b c");
+  write("b%20c/a.bin", numbers);
+  write("b c/a.bin", "");
+  EXPECT_THAT(read("b%20c/a.gltf", gltf("a.bin")).otherFiles,
+              ElementsAre((folder_ / "b%20c/a.bin").string()));
   EXPECT_THAT(complaint("a.gltf", gltf("%zz.bin")), HasSubstr("cannot be read by assimp"));
 }
 

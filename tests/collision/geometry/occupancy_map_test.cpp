@@ -124,6 +124,9 @@ TEST(OccupancyMap, Faults) {
   EXPECT_EQ(with("res 0.1", "res small"),
             "map.bt:6: res: coordinate \"small\" is not a number; write decimal numbers such as "
             "-1.25e-3");
+  EXPECT_EQ(with("res 0.1", "res 10 cm"),
+            "map.bt:6: \"cm\" comes after the value of \"res\"; one value is needed");
+  EXPECT_EQ(with("res 0.1", "res 0.1\nres 0.2"), "map.bt:7: the header has a second line \"res\"");
   EXPECT_EQ(with("res 0.1", "colour red"), "map.bt:6: \"colour\" is no line of OctoMap's header");
   EXPECT_EQ(complaintOf(header(17).substr(0, header(17).size() - 5)),
             "map.bt:7: the header has no line \"data\"");

@@ -32,6 +32,8 @@ TEST_F(UrdfFaults, Files) {
             "name");
   EXPECT_EQ(complaintOf("<robot name=\"r\">\n<link name=a/>\n</robot>\n"),
             "r.urdf:2: is not valid XML: an attribute cannot be read; name=\"value\" is needed");
+  EXPECT_EQ(complaintOf("<!DOCTYPE robot [\n<!ATTLIST origin xyz CDATA \"1 0 0\">]>\n<robot/>"),
+            "r.urdf:1: a DOCTYPE with declarations is not read; save the file without it");
   EXPECT_EQ(complaintOf("<!-- nothing -->"),
             "r.urdf: <robot> is missing; a robot (URDF) is needed");
   EXPECT_EQ(complaintOf("<?xml version=\"1.0\"?>\n<mujoco/>"),
