@@ -119,10 +119,13 @@ ProgramEnd runProgram(const ProgramCall& call) {
   int status = 0;
   bool ended = false;
   while (!ended && end.why == ProgramEnd::Why::exited) {
-    const pid_t found = ::waitpid(child, &status, WNOHANG);
-    if (found < 0 && errno == EINTR) continue;
-    if (found < 0) end.why = ProgramEnd::Why::statusLost;
-    ended = found != 0;
+    // WNOWAIT: the child keeps its number until its group is killed. Another process could get it.
+    siginfo_t found{};
+    const int failed =
+        ::waitid(P_PID, static_cast<id_t>(child), &found, WEXITED | WNOHANG | WNOWAIT);
+    if (failed != 0 && errno == EINTR) continue;
+    if (failed != 0) end.why = ProgramEnd::Why::statusLost;
+    ended = failed != 0 || found.si_pid == child;
     if (ended) break;
     if (call.interrupted && *call.interrupted) end.why = ProgramEnd::Why::interrupted;
     if (std::chrono::steady_clock::now() > latest) end.why = ProgramEnd::Why::timedOut;
@@ -131,9 +134,8 @@ ProgramEnd runProgram(const ProgramCall& call) {
     endOfChild.wait();
   }
   ::kill(-child, SIGKILL);  // the whole group: the program, and children that it has left behind
-  if (!ended)
-    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-    }
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
   const bool known = ended && end.why != ProgramEnd::Why::statusLost;
   if (known && WIFEXITED(status)) end.exitStatus = WEXITSTATUS(status);
   if (known && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
