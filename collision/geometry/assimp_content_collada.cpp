@@ -343,8 +343,8 @@ class ColladaCheck : public XmlCheck {
   }
 
   void end() override {
-    // Programs write translations of 5.5e-17 for 0. They cannot matter beside the rounding of
-    // positions to floats, unless scales make the positions small.
+    // Programs write translations of 0.000000000000000055 for 0. They cannot matter beside the
+    // rounding of positions to floats, unless scales make the positions small.
     for (const XmlTag& translation : translations_)
       checkDigits(translation, mayScale_ ? 0 : largestPosition_);
     // assimp looks for the name before the id.

@@ -179,7 +179,7 @@ class EarCutter {
 };
 
 /// A polygon of a file, and the plane that fits it best: through the mean of its corners, with the
-/// normal of M. Newell.
+/// normal of M. Newell (the sum of the cross products of neighbouring corners).
 struct FilePolygon {
   std::vector<Index> vertices;
   std::vector<Vec3> corners;  ///< divided by `size`
@@ -200,6 +200,9 @@ struct FilePolygon {
     }
     for (std::size_t i = 0; i < corners.size(); ++i)
       normal += (corners[i] - mean).cross(corners[(i + 1) % corners.size()] - mean);
+    // The area of a polygon that crosses itself may be 0.
+    const Vec3 widest = widestTriangle();
+    if (normal.norm() <= 1e-3 * widest.norm()) normal = widest;
     const Vec3 direction = normal.stableNormalized();
     for (const Vec3& p : corners)
       deviation = std::max(deviation, std::abs(direction.dot(p - mean)));
@@ -218,16 +221,24 @@ struct FilePolygon {
     return result;
   }
 
+  /// Returns the normal of a wide triangle of corners, with twice its area as its length: that of
+  /// the first corner, the corner farthest from it, and the one farthest from their line.
+  Vec3 widestTriangle() const {
+    Vec3 side = Vec3::Zero(), widest = Vec3::Zero();
+    for (const Vec3& p : corners)
+      if (const Vec3 other = p - corners[0]; other.squaredNorm() > side.squaredNorm()) side = other;
+    for (const Vec3& p : corners)
+      if (const Vec3 other = side.cross(p - corners[0]); other.squaredNorm() > widest.squaredNorm())
+        widest = other;
+    return widest;
+  }
+
   /// Returns whether the corners are all within a distance of one line.
   bool isThin(double distance) const {
-    const auto far =
-        std::max_element(corners.begin(), corners.end(), [&](const Vec3& p, const Vec3& q) {
-          return (p - corners[0]).squaredNorm() < (q - corners[0]).squaredNorm();
-        });
-    const Vec3 along = (*far - corners[0]).stableNormalized();
-    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) {
-      return (p - corners[0]).cross(along).norm() <= distance;
-    });
+    const auto length = [&](const Vec3& p) { return (p - corners[0]).norm(); };
+    double longest = 0;
+    for (const Vec3& p : corners) longest = std::max(longest, length(p));
+    return widestTriangle().norm() <= distance * longest;
   }
 };
 

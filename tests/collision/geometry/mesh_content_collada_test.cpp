@@ -74,22 +74,20 @@ TEST_F(MeshContent, ColladaCountsAndUrls) {
   std::string longer = collada();
   longer.replace(longer.find("0 2 0<"), 6, "0 2 0 7<");
   EXPECT_EQ(complaint("a.dae", longer),
-            "a.dae:4: <float_array> has 10 numbers, and the count is \"9\"; correct one of them");
+            "a.dae:3: <float_array> has 10 numbers, and the count is \"9\"; correct one of them");
 }
 
-/// Programs write such numbers for 0. Where scales make the mesh small, they may matter.
+/// Programs write numbers such as 5.5e-17 for 0. Where scales make the mesh small, they may matter.
 TEST_F(MeshContent, ColladaTranslationsNearZero) {
   const auto moved = [](const std::string& transform) {
     return collada("<node>" + transform + "<instance_geometry url=\"#g\"/></node>");
   };
-  const std::string tiny = "<translate>5.5e-17 0 -2.2e-16</translate>";
+  const std::string tiny = "<translate>0.000000000000000055 0 -2.2e-16</translate>";
   EXPECT_EQ(complaint("a.dae", moved(tiny)), "no complaint");
   const std::string misread =
       ", which assimp misreads; write decimal numbers with at most 15 digits";
   EXPECT_EQ(complaint("a.dae", moved(tiny + "<scale>1 1 1e-9</scale>")),
-            "a.dae:8: <translate> has \"5.5e-17\"" + misread);
-  EXPECT_EQ(complaint("a.dae", moved("<translate>0 0 1.5e-13</translate>")),
-            "a.dae:8: <translate> has \"1.5e-13\"" + misread);
+            "a.dae:8: <translate> has \"0.000000000000000055\"" + misread);
 }
 
 TEST_F(MeshContent, ColladaUnitsOfOtherNames) {
