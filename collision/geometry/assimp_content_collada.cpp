@@ -231,8 +231,10 @@ class ColladaCheck : public XmlCheck {
                             " numbers, and the count is \"" + std::string(array.value("count")) +
                             "\"; correct one of them");
     checkDigits(array);
+    double largest = 0;
     for (const double number : numbersIn(array.content))
-      largestPosition_ = std::max(largestPosition_, std::abs(number));
+      largest = std::max(largest, std::abs(number));
+    smallestMesh_ = std::min(smallestMesh_, largest);
   }
 
   /// Checks that assimp reads an element's numbers as they are, up to 1e-14 of the largest one.
@@ -346,7 +348,7 @@ class ColladaCheck : public XmlCheck {
     // Programs write translations of 0.000000000000000055 for 0. They cannot matter beside the
     // rounding of positions to floats, unless scales make the positions small.
     for (const XmlTag& translation : translations_)
-      checkDigits(translation, mayScale_ ? 0 : largestPosition_);
+      checkDigits(translation, mayScale_ ? 0 : smallestMesh_);
     // assimp looks for the name before the id.
     for (const XmlTag& node : nodes_)
       if (const std::string url = "#" + std::string(node.value("name"));
@@ -364,8 +366,8 @@ class ColladaCheck : public XmlCheck {
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
   std::vector<XmlTag> translations_;
-  bool mayScale_ = false;  // there is a transform other than <translate> and <rotate>
-  double largestPosition_ = 0;
+  bool mayScale_ = false;           // there is a transform other than <translate> and <rotate>
+  double smallestMesh_ = HUGE_VAL;  // the least of the largest positions of meshes
   std::set<std::string_view> targets_, urls_, instanced_;
   std::vector<XmlTag> nodes_;
   // The last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.

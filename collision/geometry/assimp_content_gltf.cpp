@@ -101,9 +101,15 @@ class GltfCheck {
   bool checkVersion() {
     const Json& version = member(member(root_, "asset"), "version");
     const auto* const name = version.get_ptr<const std::string*>();
+    const Json& least = member(member(root_, "asset"), "minVersion");
+    if (!least.is_null() && least != "2.0" && least != "2") {
+      fault("needs a reader of glTF " + least.dump().substr(0, 32) +
+            ", which is not supported; save the mesh as glTF 2.0");
+      return false;
+    }
     if (name && (*name == "2" || name->starts_with("2."))) return true;
     // A string has quotes around it.
-    const std::string text = version.dump();
+    const std::string text = version.dump().substr(0, 32);
     fault((name && !name->empty()
                ? "glTF " + text.substr(1, text.size() - 2)
                : std::string("glTF without a version such as \"2.0\" in its asset")) +
@@ -443,6 +449,8 @@ void checkGlb(const std::string& file, std::string_view bytes, ContentReport& re
     std::memcpy(&word, bytes.data() + at, sizeof word);
     return word;
   };
+  if (!bytes.starts_with("glTF"))
+    return report.fault(file, 0, "a GLB file begins with the word glTF; save the file again");
   if (const std::uint32_t version = wordAt(4); version != 2)
     return report.fault(
         file, 0,

@@ -7,7 +7,7 @@
 namespace corridor {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31706d6973736131;  // "1assimp1"
+constexpr std::uint64_t kMagic = 0x32706d6973736132;  // "2assimp2"
 
 /// The header of the packed bytes.
 struct Head {
@@ -114,6 +114,12 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
   take(bytes, import.mesh.vertices.data(), head.vertices);
   take(bytes, import.mesh.triangles.data(), head.triangles);
   take(bytes, import.polygons.data(), head.polygons);
+  std::uint64_t end = 0;  // of the last fan
+  for (const PolygonFan& fan : import.polygons) {
+    if (fan.triangles < 2 || fan.firstTriangle < end) return false;
+    end = std::uint64_t{fan.firstTriangle} + fan.triangles;
+  }
+  if (end > head.triangles) return false;
   if (!takeFaults(bytes, head.faults, import.faults) ||
       !takeTexts(bytes, head.notes, import.notes) ||
       !takeTexts(bytes, head.otherFiles, import.otherFiles) || !takeText(bytes, import.format) ||

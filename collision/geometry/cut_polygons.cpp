@@ -178,47 +178,65 @@ class EarCutter {
   std::vector<Indices3> triangles_;
 };
 
-/// A polygon of a file, and the plane that fits it best: through the mean of its corners, with the
-/// normal of M. Newell (the sum of the cross products of neighbouring corners).
+/// A polygon of a file, and the plane that fits it: through the mean of its corners, with the
+/// normal of M. Newell (the sum of the cross products of neighbouring corners), or that of a wide
+/// triangle of corners, whichever is nearer to the corners. (Where a boundary encloses little area,
+/// rounding turns Newell's normal.)
 struct FilePolygon {
   std::vector<Index> vertices;
   std::vector<Vec3> corners;  ///< divided by `size`
   double size = 0;            ///< the largest absolute coordinate
+  double extent = 0;          ///< the largest distance from the first corner, divided by `size`
   Vec3 normal = Vec3::Zero();
   double deviation = 0;  ///< the largest distance of a corner from the plane, divided by `size`
+  double width = 0;      ///< of a strip around all corners, divided by `size`; an upper bound
 
   FilePolygon(const TriangleMesh& mesh, const PolygonFan& fan) {
     const Indices3* const triangles = mesh.triangles.data() + fan.firstTriangle;
+    vertices.reserve(fan.triangles + 2);
     vertices = {triangles[0][0], triangles[0][1]};
     for (Index k = 0; k < fan.triangles; ++k) vertices.push_back(triangles[k][2]);
     for (const Index v : vertices) size = std::max(size, mesh.vertices[v].cwiseAbs().maxCoeff());
     if (size == 0) size = 1;
+    corners.reserve(vertices.size());
     Vec3 mean = Vec3::Zero();
     for (const Index v : vertices) {
       corners.emplace_back(mesh.vertices[v] / size);
       mean += corners.back() / static_cast<double>(vertices.size());
     }
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      normal += (corners[i] - mean).cross(corners[(i + 1) % corners.size()] - mean);
-    // The area of a polygon that crosses itself may be 0.
+    Vec3 newell = Vec3::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      newell += (corners[i] - mean).cross(corners[(i + 1) % corners.size()] - mean);
+      extent = std::max(extent, (corners[i] - corners[0]).norm());
+    }
     const Vec3 widest = widestTriangle();
-    if (normal.norm() <= 1e-3 * widest.norm()) normal = widest;
-    const Vec3 direction = normal.stableNormalized();
-    for (const Vec3& p : corners)
-      deviation = std::max(deviation, std::abs(direction.dot(p - mean)));
+    if (extent > 0) width = 2 * widest.norm() / extent;
+    const double byNewell = deviationFrom(newell, mean), byWidest = deviationFrom(widest, mean);
+    const bool isNewell = byNewell <= byWidest && !newell.isZero(0);
+    normal = isNewell ? newell : widest;
+    deviation = isNewell ? byNewell : byWidest;
   }
 
   /// Returns the corners in the projection along the axis that is nearest to the normal. They are
   /// the file's coordinates, without rounding. They are counterclockwise for `isFront`, unless the
-  /// area is no larger than its rounding error.
+  /// area is small.
   std::vector<Vec2> projected(const TriangleMesh& mesh, bool isFront) const {
     Eigen::Index axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
     Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
     if ((normal[axis] > 0) != isFront) std::swap(u, v);
     std::vector<Vec2> result;
+    result.reserve(vertices.size());
     for (const Index i : vertices) result.emplace_back(mesh.vertices[i][u], mesh.vertices[i][v]);
     return result;
+  }
+
+ private:
+  double deviationFrom(const Vec3& direction, const Vec3& mean) const {
+    const Vec3 unit = direction.stableNormalized();
+    double largest = 0;
+    for (const Vec3& p : corners) largest = std::max(largest, std::abs(unit.dot(p - mean)));
+    return largest;
   }
 
   /// Returns the normal of a wide triangle of corners, with twice its area as its length: that of
@@ -232,26 +250,43 @@ struct FilePolygon {
         widest = other;
     return widest;
   }
+};
 
-  /// Returns whether the corners are all within a distance of one line.
-  bool isThin(double distance) const {
-    const auto length = [&](const Vec3& p) { return (p - corners[0]).norm(); };
-    double longest = 0;
-    for (const Vec3& p : corners) longest = std::max(longest, length(p));
-    return widestTriangle().norm() <= distance * longest;
+/// A polygon counts as flat up to this part of its extent: the note on others is for people. Digits
+/// of the file are mostly finer.
+constexpr double kFlat = 1e-5;
+/// A narrower polygon, in parts of its extent, may cross itself by the rounding of its corners to
+/// six digits or floats.
+constexpr double kThin = 1e-5;
+/// A polygon that is farther from its plane, in parts of its extent, has a projection in no plane
+/// that is more than a choice.
+constexpr double kBent = 0.01;
+
+std::string nameOfPolygon(const PolygonFan& fan, const Vec3& corner) {
+  const std::string polygon = "a polygon of " + std::to_string(fan.triangles + 2) + " corners";
+  if (fan.face > 0) return "face " + std::to_string(fan.face) + ", " + polygon + ',';
+  return polygon + " with a corner at (" + shortest(corner.x()) + ", " + shortest(corner.y()) +
+         ", " + shortest(corner.z()) + ')';
+}
+
+/// Polygons of one kind, for a note.
+struct NotedPolygons {
+  std::size_t count = 0;
+  std::string first;  ///< the place of the first, or worst, of them
+
+  std::string text() const {
+    return count == 1 ? "1 polygon" : std::to_string(count) + " polygons";
   }
 };
 
-/// Coordinates of six digits, as files commonly have them, are off by 5e-6 of the largest one. A
-/// plane that fits them may be off by as much.
-constexpr double kFlatSlack = 1e-5;
-
-std::string nameOfPolygon(const PolygonFan& fan) {
-  return (fan.face > 0 ? "face " + std::to_string(fan.face) + ", a polygon" : "a polygon") +
-         " of " + std::to_string(fan.triangles + 2) + " corners, ";
+std::string placeOf(const PolygonFan& fan, const Vec3& corner) {
+  return fan.line > 0   ? "line " + std::to_string(fan.line)
+         : fan.face > 0 ? "face " + std::to_string(fan.face)
+                        : "the corner (" + shortest(corner.x()) + ", " + shortest(corner.y()) +
+                              ", " + shortest(corner.z()) + ')';
 }
 
-/// Returns two edges that cross at a point within both, as a text; "" if none do.
+/// Returns two edges that cross at a point within both, as a text; "" if none of the first 1000 do.
 std::string crossingOf(std::span<const Vec2> p) {
   const std::size_t n = std::min<std::size_t>(p.size(), 1000);  // finding them takes n^2 steps
   const auto after = [&](std::size_t i) { return p[(i + 1) % p.size()]; };
@@ -275,44 +310,54 @@ std::vector<Indices3> trianglesOfPolygon(std::span<const Vec2> corners) {
 
 void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFaults& faults,
                  std::vector<std::string>& notes) {
-  std::size_t bent = 0;
-  const PolygonFan* mostBent = nullptr;
-  double deviation = 0;
+  NotedPolygons bent, crossing;
+  double largest = 0, work = 0;
   for (const PolygonFan& fan : fans) {
-    const FilePolygon face(mesh, fan);
-    const bool isBent = face.deviation > kFlatSlack;
-    bent += isBent;
-    if (isBent && face.deviation * face.size > deviation) {
-      mostBent = &fan;
-      deviation = face.deviation * face.size;
+    const FilePolygon polygon(mesh, fan);
+    const Vec3& corner = mesh.vertices[polygon.vertices[0]];
+    if (polygon.deviation > kFlat * polygon.extent) {
+      ++bent.count;
+      if (polygon.deviation * polygon.size >= largest) {
+        largest = polygon.deviation * polygon.size;
+        bent.first = placeOf(fan, corner);
+      }
     }
-    const std::vector<Vec2> front = face.projected(mesh, true);
-    if (fan.triangles + 2 > kMostPolygonCorners && !isConvexPolygon(front)) {
-      faults.add(fan.line, nameOfPolygon(fan) + "is not convex, and has more than " +
-                               std::to_string(kMostPolygonCorners) +
-                               " corners; save the mesh as triangles");
-      continue;
-    }
+    const std::vector<Vec2> front = polygon.projected(mesh, true);
+    const auto n = static_cast<double>(front.size());
+    if (!isConvexPolygon(front)) work += n * n;
+    if (work > kMostPolygonWork)
+      faults.fail(fan.line, "the polygons that are not convex have too many corners (" +
+                                nameOfPolygon(fan, corner) +
+                                " is the first that is not cut); save the mesh as triangles");
     std::vector<Indices3> triangles = trianglesOfPolygon(front);
-    if (triangles.empty()) triangles = trianglesOfPolygon(face.projected(mesh, false));
-    if (triangles.empty() && (isBent || face.isThin(kFlatSlack))) continue;  // stays a fan
+    if (triangles.empty()) triangles = trianglesOfPolygon(polygon.projected(mesh, false));
+    if (triangles.empty() &&
+        (polygon.width <= kThin * polygon.extent || polygon.deviation > kBent * polygon.extent)) {
+      if (crossing.count++ == 0) crossing.first = placeOf(fan, corner);
+      continue;  // stays a fan
+    }
     if (triangles.empty())
-      faults.add(fan.line, nameOfPolygon(fan) + "crosses or overlaps itself" + crossingOf(front) +
+      faults.add(fan.line, nameOfPolygon(fan, corner) + " crosses or overlaps itself" +
+                               crossingOf(front) +
                                "; split it into simple polygons, or into triangles");
     for (std::size_t k = 0; k < triangles.size(); ++k)
       for (std::size_t i = 0; i < 3; ++i)
-        mesh.triangles[fan.firstTriangle + k][i] = face.vertices[triangles[k][i]];
+        mesh.triangles[fan.firstTriangle + k][i] = polygon.vertices[triangles[k][i]];
   }
   faults.throwIfAny();
-  if (!mostBent) return;
-  notes.push_back(
-      (bent == 1 ? std::string("1 polygon is") : std::to_string(bent) + " polygons are") +
-      " not flat: the surface between the corners is that of the triangles into which they are "
-      "cut; the largest deviation from a plane is " +
-      withDigits(deviation, 3) + " units of the file" +
-      (mostBent->line > 0   ? ", at line " + std::to_string(mostBent->line)
-       : mostBent->face > 0 ? ", at face " + std::to_string(mostBent->face)
-                            : std::string()));
+  if (bent.count > 0)
+    notes.push_back(
+        bent.text() +
+        (bent.count == 1 ? " is not flat: its surface" : " are not flat: their surface") +
+        " is that of the triangles into which it is cut; the largest deviation from a "
+        "plane is " +
+        withDigits(largest, 3) + " units of the file, at " + bent.first);
+  if (crossing.count > 0)
+    notes.push_back(crossing.text() + " that " +
+                    (crossing.count == 1 ? "crosses itself is" : "cross themselves are") +
+                    " so thin, or so far from flat, that a fan of triangles is used instead, which "
+                    "may overlap; the first is at " +
+                    crossing.first);
 }
 
 }  // namespace corridor

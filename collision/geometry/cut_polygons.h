@@ -29,11 +29,14 @@ struct PolygonFan {
 ///
 /// The decisions are exact (`lineSide`), in the projection along the axis that is nearest to the
 /// polygon's normal. So a flat polygon is covered exactly, apart from the rounding of its own
-/// corners. Adds a note if there are polygons that are not flat, with the largest deviation. One of
-/// these stays a fan if its projection crosses itself: no surface of it is the right one.
+/// corners. Adds a note if there are polygons that are not flat, with the largest deviation, and a
+/// note if polygons stay fans although they cross themselves: those narrower than 1e-5 of their
+/// length, which the digits of a file may let cross, and those with corners farther than 1 % of
+/// their size from a plane, of which no surface is the right one.
 ///
-/// @throws InputError: a flat polygon crosses or overlaps itself, or is not convex and has more
-/// than `kMostPolygonCorners` corners.
+/// @throws InputError: another polygon crosses or overlaps itself; or the polygons that are not
+/// convex have too many corners: the sum of the squares of these numbers exceeds
+/// `kMostPolygonWork`.
 void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFaults& faults,
                  std::vector<std::string>& notes);
 
@@ -46,7 +49,8 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
 /// triangle no other edge enters. The result is checked: triangles of the same boundary are right
 /// if and only if they do not overlap.
 /// @returns nothing if the boundary does not wind about each point once or not at all: it crosses
-/// itself, goes around twice, or is clockwise.
+/// itself, goes around twice, or is clockwise. Also nothing for some boundaries that do, but run
+/// along an edge three times or cross themselves without area.
 /// @pre n >= 3, and all coordinates are finite.
 std::vector<std::array<std::uint32_t, 3>> trianglesOfPolygon(std::span<const Vec2> corners);
 

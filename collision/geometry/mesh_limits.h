@@ -8,9 +8,10 @@ namespace corridor {
 /// many vertices and triangles takes 4 GB, and its tree some 8 GB.
 constexpr std::size_t kMaxMeshElements = 100'000'000;
 
-/// The maximum number of corners of a polygon that is not convex: to cut it takes time that grows
-/// as their square.
-constexpr std::size_t kMostPolygonCorners = 20'000;
+/// The maximum of the sum of squares of the numbers of corners, over the polygons of a file that
+/// are not convex: one of 30,000 corners, or 10^6 of 30. To cut a polygon takes up to 10 ns times
+/// this square.
+constexpr double kMostPolygonWork = 1e9;
 
 /// The note on a mesh file with lines or points.
 constexpr const char* kNoteOnLines = "lines and points have no volume, and are not read";

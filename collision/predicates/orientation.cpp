@@ -56,6 +56,7 @@ int orientationSign(const MappedPoint& p, const MappedPoint& q, const MappedPoin
 }
 
 int lineSide(const Vec2& p, const Vec2& q, const Vec2& r) {
+  if (p == q || q == r || r == p) return 0;
   const auto lifted = [](const Vec2& v, double z) { return Vec3(v.x(), v.y(), z); };
   return planeSide(lifted(p, 0), lifted(q, 0), lifted(r, 0), lifted(p, 1));
 }

@@ -1,6 +1,8 @@
 #include "collision/geometry/cut_polygons.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -102,14 +104,29 @@ TEST(CutPolygons, WhatIsNoPolygonIsRefused) {
       IsEmpty());  // twice around
 }
 
-/// Coordinates that differ by a rounding: lineSide in doubles would be wrong.
+/// Corners that are left or right of a line by less than the rounding of a determinant in doubles.
 TEST(CutPolygons, CornersOffALineByARounding) {
-  const double next = std::nextafter(0.5, 1);
-  const Polygon dent{{0, 0}, {0.5, next}, {1, 1}, {0, 1}};  // turns left: above the line
-  EXPECT_EQ(trianglesOfPolygon(Polygon{{0, 0}, {0.5, 0.5}, {1, 1}, {0, 1}}).size(), 2u);
-  const auto triangles = trianglesOfPolygon(dent);
-  ASSERT_EQ(triangles.size(), 2u);
-  for (const auto& t : triangles) EXPECT_GT(lineSide(dent[t[0]], dent[t[1]], dent[t[2]]), 0);
+  const double u = 0x1p-53;
+  int wrong = 0, dents = 0;
+  for (int k = 0; k < 40; ++k)
+    for (int m = 0; m < 40; ++m) {
+      const double x = 0.5 + k * u, y = 0.5 + m * u;          // the line: y = x
+      const Polygon p{{24, 24}, {12, 24}, {x, y}, {12, 12}};  // (12, 12) is between, if x = y
+      const double naive = (x - 24) * (12 - 24) - (y - 24) * (12 - 24);
+      wrong += (naive > 0) != (x > y) || (naive < 0) != (x < y);
+      const auto triangles = trianglesOfPolygon(p);
+      // For x < y the corner (12, 12) turns left, and else right, or not at all: then the diagonal
+      // from it is the only one.
+      ASSERT_EQ(triangles.size(), 2u) << k << ' ' << m;
+      if (y < x) ++dents;
+      if (y < x)
+        for (const auto& t : triangles) {
+          EXPECT_NE(std::find(t.begin(), t.end(), 3u), t.end()) << k << ' ' << m;
+          EXPECT_NE(std::find(t.begin(), t.end(), 1u), t.end()) << k << ' ' << m;
+        }
+    }
+  EXPECT_GT(wrong, 0);
+  EXPECT_GT(dents, 0);
 }
 
 // --- Files
@@ -218,42 +235,132 @@ TEST_F(PolygonFiles, PolygonsThatCrossThemselves) {
               StartsWith("a.ply:14: face 1, a polygon of 4 corners, crosses"));
 }
 
-/// No surface between corners that are not in a plane is the right one, so a note says so.
+/// A small polygon far from the origin is not taken for a thin one.
+TEST_F(PolygonFiles, CrossingPolygonsFarFromTheOrigin) {
+  const auto bowTie = [&](const std::string& x, const std::string& next) {
+    return complaint("a.obj", "v " + x + " 0 0\nv " + next + " 0.01 0\nv " + next + " 0 0\nv " + x +
+                                  " 0.01 0\nf 1 2 3 4\n");
+  };
+  EXPECT_THAT(bowTie("1000", "1000.01"), HasSubstr("crosses or overlaps itself"));
+  EXPECT_THAT(bowTie("450000", "450000.01"), HasSubstr("crosses or overlaps itself"));
+  // Its area is small, so rounding turns Newell's normal.
+  EXPECT_THAT(complaint("a.obj",
+                        "v 0 0 0.000005\nv 1 1 0.000005\nv 1 0 -0.000005\nv 0 0.997 -0.000005\n"
+                        "f 1 2 3 4\n"),
+              HasSubstr("crosses or overlaps itself"));
+}
+
+/// Corners that are not in a plane determine no surface, so a note says so.
 TEST_F(PolygonFiles, PolygonsThatAreNotFlat) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 ", face = "\nv 0 1 0\nf 1 2 3 4\n";
   EXPECT_THAT(read("a.obj", square + "0.000001" + face).notes, IsEmpty());
   EXPECT_THAT(
       read("a.obj", square + "0.4" + face + "f 4 3 2 1\n").notes,
       ElementsAre(
-          "2 polygons are not flat: the surface between the corners is that of the triangles into "
-          "which they are cut; the largest deviation from a plane is 0.0962 units of the file, at "
-          "line 5"));
-  // Its projection crosses itself.
-  EXPECT_THAT(read("a.obj", "v 0 0 0\nv 1 0 1\nv 0 0.4 1\nv 1 0.1 0\nf 1 2 3 4\n").notes,
-              ElementsAre(HasSubstr("1 polygon is not flat")));
+          "2 polygons are not flat: their surface is that of the triangles into which it is cut; "
+          "the largest deviation from a plane is 0.0962 units of the file, at line 6"));
 }
 
-/// Corners on a line up to the digits of the file may cross; the area is then nothing.
-TEST_F(PolygonFiles, ThinPolygons) {
-  const MeshFile file = read("a.obj",
-                             "v 0 0 0\nv 1 0.0000001 0\nv 2 0 0\nv 1.5 0.000001 0\nv 0 1 0\n"
-                             "f 1 3 2 4\nf 1 2 1 3\nf 1 1 1 1 1\nf 1 2 5\n");
-  EXPECT_EQ(file.mesh.triangles.size(), 8u);
-  EXPECT_THAT(file.notes, IsEmpty());
+/// Polygons for which no surface is right, or whose area is nothing, stay fans.
+TEST_F(PolygonFiles, CrossingPolygonsThatStayFans) {
+  const auto fanWith = [&](const std::string& points, const std::string& note) {
+    const MeshFile file = read("a.obj", points + "f 1 2 3 4\n");
+    EXPECT_EQ(file.mesh.triangles,
+              (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_THAT(file.notes, testing::Contains(note)) << points;
+  };
+  const std::string note =
+      "1 polygon that crosses itself is so thin, or so far from flat, that a fan of triangles is "
+      "used instead, which may overlap; the first is at line 5";
+  fanWith("v 0 0 0\nv 2 0 0\nv 0.5 0.000001 0\nv 1.5 0.000001 0\n", note);  // thin
+  fanWith("v 0 0 0\nv 1 1 0.1\nv 1 0 -0.1\nv 0 0.8 0.1\n", note);           // bent
+  EXPECT_THAT(complaint("a.obj", "v 0 0 0\nv 2 0 0\nv 0.5 0.001 0\nv 1.5 0.001 0\nf 1 2 3 4\n"),
+              HasSubstr("crosses or overlaps itself"));
+  EXPECT_THAT(complaint("a.obj", "v 0 0 0\nv 1 1 0.001\nv 1 0 -0.001\nv 0 0.8 0.001\nf 1 2 3 4\n"),
+              HasSubstr("crosses or overlaps itself"));
+  EXPECT_THAT(
+      read("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 1 3\nf 1 1 1 1 1\nf 1 2 4\n").notes,
+      IsEmpty());
+}
+
+/// The door of a wall in other planes: along each axis, and oblique.
+TEST_F(PolygonFiles, OtherPlanes) {
+  const double wall[][2] = {{0, 0}, {1, 0}, {1, 2}, {2, 2}, {2, 0}, {4, 0}, {4, 3}, {0, 3}};
+  const Vec3 oblique = Vec3(2, -3, 6) / 7, across = Vec3(6, -2, -3) / 7;  // an exact frame in 1/7
+  const std::pair<Vec3, Vec3> planes[] = {{{1, 0, 0}, {0, 1, 0}},  {{0, 1, 0}, {0, 0, 1}},
+                                          {{0, 0, 1}, {1, 0, 0}},  {{0, 1, 0}, {1, 0, 0}},
+                                          {{-1, 0, 0}, {0, 0, 1}}, {oblique, across}};
+  for (const auto& [u, v] : planes) {
+    std::string obj;
+    for (const auto& [x, y] : wall) {
+      const Vec3 p = x * u + y * v;
+      char line[100];
+      std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p.x(), p.y(), p.z());
+      obj += line;
+    }
+    for (int first = 0; first < 8; ++first) {
+      std::string face = "f";
+      for (int i = 0; i < 8; ++i) face += ' ' + std::to_string((first + i) % 8 + 1);
+      TriangleMesh mesh = read("a.obj", obj + face).mesh;
+      const Vec3 normal = u.cross(v);
+      double area = 0;
+      for (const auto& t : mesh.triangles) {  // all have the polygon's orientation
+        const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+        const double twice = (b - a).cross(c - a).dot(normal);
+        EXPECT_GE(twice, -1e-15);
+        area += std::abs(twice) / 2;
+      }
+      EXPECT_NEAR(area, 10, 1e-13);
+      for (Vec3& p : mesh.vertices) p = {p.dot(u), p.dot(v), 0};
+      EXPECT_EQ(covering(mesh, {1.5, 0.9}), 0);
+      EXPECT_EQ(covering(mesh, {3, 1.1}), 1);
+    }
+  }
+}
+
+/// Under OMPL.app's rules, too, whose import steps cut polygons as assimp does.
+TEST_F(PolygonFiles, OmplAppsRules) {
+  inAllFormats({"0 0 0", "0 2 0", "2 1 0", "1 1 0", "1 2 0", "2 0 0"}, {0, 5, 2, 3, 4, 1});
+  const OmplAppMesh read = readOmplAppMesh(folder_ / "a.dae");
+  EXPECT_EQ(read.importedVertices, 6);
+  EXPECT_EQ(read.mesh.triangles.size(), 4u);
+  // The frame is turned to y-up: (x, y, z) -> (x, z, -y).
+  TriangleMesh mesh = read.mesh;
+  for (Vec3& p : mesh.vertices) {
+    EXPECT_NEAR(p.y(), 0, 1e-6);
+    p = {p.x(), -p.z(), 0};
+  }
+  EXPECT_EQ(covering(mesh, {1.6, 1.5}), 0);
+  EXPECT_EQ(covering(mesh, {1.6, 0.6}), 1);
+  EXPECT_EQ(covering(mesh, {0.5, 1.6}), 1);
+}
+
+TEST_F(PolygonFiles, ColladaPolygonsThatCrossThemselves) {
+  EXPECT_EQ(complaintOf([&] {
+              inAllFormats({"0 0 0", "1 1 0", "1 0 0", "0 1 0"}, {0, 1, 2});  // writes the files
+              std::string dae = contents(folder_ / "a.dae");
+              dae.replace(dae.find("<vcount>3"), 9, "<vcount>4");
+              dae.replace(dae.find("<p> 0 1 2"), 9, "<p> 0 1 2 3");
+              read("a.dae", dae);
+            }),
+            "a.dae: a polygon of 4 corners with a corner at (0, 0, 0) crosses or overlaps itself "
+            "(the edges behind its corners 1 and 3); split it into simple polygons, or into "
+            "triangles");
 }
 
 TEST_F(PolygonFiles, TooManyCornersThatAreNotConvex) {
   std::string obj, face = "f";
-  const int n = 20'001;
+  const int n = 31'700;
   for (int i = 0; i < n; ++i) {
     const double turn = 6.283185307179586 * i / n, radius = i % 2 == 0 ? 1 : 2;
     obj += "v " + std::to_string(radius * std::cos(turn)) + ' ' +
            std::to_string(radius * std::sin(turn)) + " 0\n";
     face += ' ' + std::to_string(i + 1);
   }
-  EXPECT_EQ(complaint("a.obj", obj + face),
-            "a.obj:20002: face 1, a polygon of 20001 corners, is not convex, and has more than "
-            "20000 corners; save the mesh as triangles");
+  EXPECT_EQ(
+      complaint("a.obj", obj + face),
+      "a.obj:31701: the polygons that are not convex have too many corners (face 1, a polygon "
+      "of 31700 corners, is the first that is not cut); save the mesh as triangles");
 }
 
 }  // namespace
