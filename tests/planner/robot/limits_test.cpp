@@ -46,8 +46,8 @@ TEST_F(RobotLimits, Shapes) {
 
 /// Each shape has a copy of its mesh, so the sum of all triangles is limited.
 TEST_F(RobotLimits, Triangles) {
-  std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
-  for (int i = 0; i < 20'000; ++i) fan += " 1 2 3";
+  std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
+  for (int i = 0; i < 59'998; ++i) fan += " 3";
   write("fan.obj", fan);
   std::string shapes;
   for (int i = 0; i < 100'000; ++i) shapes += collision("<mesh filename=\"fan.obj\"/>") + "\n";
@@ -87,8 +87,8 @@ TEST_F(RobotLimits, Entities) {
     for (int i = 0; i < 10; ++i) entities += last;
     entities += "\">\n";
   }
-  EXPECT_THAT(complaintOf(entities + "]>\n<robot name=\"&j;\">\n" + link("a&amp;b") + "</robot>\n"),
-              testing::AnyOf("no complaint", HasSubstr("is not valid XML")));
+  EXPECT_EQ(complaintOf(entities + "]>\n<robot name=\"&j;\">\n" + link("a&amp;b") + "</robot>\n"),
+            "r.urdf:1: a DOCTYPE with declarations is not read; save the file without it");
 }
 
 TEST_F(RobotLimits, SrdfCounts) {
