@@ -29,6 +29,9 @@ class ContentReport {
   std::vector<Fault> faults;
   std::vector<std::string> notes;
   double fileUnit = 0;  ///< metres; 0: no 3MF file
+  /// The largest sum of the lengths of the translations within one node of several: assimp adds
+  /// them up in floats.
+  double travelInNode = 0;
   /// The number of triangles in the file; nullopt if it is not counted.
   std::optional<double> triangles;
 
@@ -47,11 +50,13 @@ void checkContent(ContentKind kind, const std::string& file, std::string_view by
 /// digits. assimp does not normalise rotations: another length would distort the mesh.
 bool hasLengthOne(const double* numbers, int size);
 
-/// Returns whether assimp reads a decimal number as its value, apart from the rounding to floats.
-/// assimp's function for numbers of text (fast_atof) misreads those of more than 18 digits before
-/// the point, and drops the decimals after the 15th, also where a positive exponent follows.
-/// @param largest the largest absolute value of the list that has the number
-bool isReadRightly(std::string_view word, double value, double largest);
+/// Returns whether assimp reads a decimal number as its value, apart from the rounding to floats
+/// and from `kMostLostDecimals`. assimp's function for numbers of text (fast_atof) misreads those
+/// of more than 18 digits before the point, and drops the decimals after the 15th, also where a
+/// positive exponent follows.
+bool isReadRightly(std::string_view word, double value);
+/// What the decimals after the 15th may amount to.
+constexpr double kMostLostDecimals = 1e-15;
 
 /// The parts of `checkContent`.
 /// @param isBinary whether the JSON is that of a GLB file

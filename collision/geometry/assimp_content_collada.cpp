@@ -16,7 +16,7 @@ namespace {
 constexpr XmlRules kCollada{
     "COLLADA",
     "",
-    " instance_controller convex_mesh brep skew ph ",
+    " instance_controller convex_mesh brep skew lookat ph ",
     " geometry visual_scene ",
     " asset vertices accessor technique_common unit up_axis vcount float_array "
     "int_array bool_array Name_array IDREF_array ",
@@ -69,7 +69,6 @@ bool isKnownIn(std::string_view parent, std::string_view name) {
 std::size_t sizeOfTransform(std::string_view name) {
   return name == "rotate"                         ? 4
          : name == "translate" || name == "scale" ? 3
-         : name == "lookat"                       ? 9
          : name == "matrix"                       ? 16
                                                   : 0;
 }
@@ -231,19 +230,13 @@ class ColladaCheck : public XmlCheck {
                             " numbers, and the count is \"" + std::string(array.value("count")) +
                             "\"; correct one of them");
     checkDigits(array);
-    double largest = 0;
-    for (const double number : numbersIn(array.content))
-      largest = std::max(largest, std::abs(number));
-    smallestMesh_ = std::min(smallestMesh_, largest);
   }
 
-  /// Checks that assimp reads an element's numbers as they are, up to 1e-14 of the largest one.
-  void checkDigits(const XmlTag& tag, double largest = 0) {
-    for (const double number : numbersIn(tag.content))
-      largest = std::max(largest, std::abs(number));
+  /// Checks that assimp reads an element's numbers as they are.
+  void checkDigits(const XmlTag& tag) {
     std::string_view rest = tag.content;
     for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
-      if (!isReadRightly(word, numberIn(word), largest))
+      if (!isReadRightly(word, numberIn(word)))
         return fault(tag.line, "<" + std::string(tag.name) + "> has \"" +
                                    std::string(word.substr(0, 64)) + '"' + kDigits);
   }
@@ -281,31 +274,35 @@ class ColladaCheck : public XmlCheck {
         std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
       return fault(tag.line, "<" + std::string(tag.name) + "> needs " + std::to_string(size) +
                                  " decimal numbers");
-    if (tag.name == "translate") {
-      translations_.push_back(tag);
-    } else {
-      checkDigits(tag);
-      mayScale_ |= tag.name != "rotate";
-    }
+    checkDigits(tag);
     if (tag.name == "rotate" && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
       fault(tag.line,
             "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
             "axis with length 1, with six digits or more");
-    if (tag.name == "lookat" && !isUpright(numbers))
-      fault(tag.line,
-            "the upward direction of <lookat> is not perpendicular to its line of sight, and "
-            "assimp would distort the mesh; write a <matrix>");
+    // As a float, an angle of two turns is off by 3e-5 degrees.
+    if (tag.name == "rotate" && std::abs(numbers[3]) > 720)
+      fault(tag.line, "the angle of <rotate> is rounded to a float; write one from -720 to 720");
+    addTravel(tag, numbers);
   }
 
-  /// Returns whether the last three of nine numbers, a view's upward direction, are perpendicular
-  /// to its line of sight. If not, assimp would shear the mesh.
-  static bool isUpright(const std::vector<double>& numbers) {
-    const Eigen::Map<const Eigen::Vector3d> eye(numbers.data()), seen(numbers.data() + 3),
-        up(numbers.data() + 6);
-    // Coordinates of six digits turn `up` of length 1 by sqrt(3) * 5e-7 at most, and a line of
-    // sight of length 1 by twice as much: the cosine is below 3e-6. The slack is three times that.
-    constexpr double kSlack = 1e-5;
-    return std::abs((seen - eye).normalized().dot(up.normalized())) <= kSlack;
+  /// Adds a transform to those of its node.
+  void addTravel(const XmlTag& tag, const std::vector<double>& numbers) {
+    Travel& travel = travels_[open_.size()];
+    if (const std::size_t node = open_[open_.size() - 2].from; travel.node != node) travel = {node};
+    if (tag.name == "matrix" && ++travel.matrices > 1)
+      fault(tag.line, "a <node> has two <matrix>; multiply them, or write two nodes");
+    if (tag.name == "scale")
+      travel.scale *= std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    if (tag.name == "translate") moved = {numbers[0], numbers[1], numbers[2]};
+    if (tag.name == "matrix") moved = {numbers[3], numbers[7], numbers[11]};
+    if (moved.isZero(0)) return;
+    travel.length += travel.scale * moved.norm();
+    if (++travel.translations > 1)
+      report_.travelInNode = std::max(report_.travelInNode, travel.length);
+    if (tag.name == "matrix")
+      travel.scale *=
+          Eigen::Map<const Eigen::Matrix4d>(numbers.data()).topLeftCorner<3, 3>().norm();
   }
 
   /// Checks that an <asset> within the document says what the document's own says: assimp reads
@@ -318,8 +315,7 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "up_axis") up = withoutBlanks(tag.content);
     if (const std::string_view meter = tag.value("meter"); tag.name == "unit")
       unit = meter.empty() ? 1 : numberIn(meter);
-    if (tag.name == "unit" &&
-        !isReadRightly(withoutBlanks(tag.find("meter").value_or("1")), unit, 0))
+    if (tag.name == "unit" && !isReadRightly(withoutBlanks(tag.find("meter").value_or("1")), unit))
       fault(tag.line, "<unit> has a meter" + std::string(kDigits));
     if (tag.name == "unit") noteUnitName(tag.value("name"), unit);
     hasInnerAsset_ |= depth > 3;
@@ -332,23 +328,25 @@ class ColladaCheck : public XmlCheck {
 
   /// Notes a unit whose name belongs to another length: the length counts.
   void noteUnitName(std::string_view name, double metres) {
-    constexpr std::array<std::pair<std::string_view, double>, 6> kNames{{{"meter", 1},
-                                                                         {"decimeter", 0.1},
-                                                                         {"centimeter", 0.01},
-                                                                         {"millimeter", 0.001},
-                                                                         {"inch", 0.0254},
-                                                                         {"foot", 0.3048}}};
+    constexpr std::array<std::pair<std::string_view, double>, 12> kNames{{{"meter", 1},
+                                                                          {"metre", 1},
+                                                                          {"m", 1},
+                                                                          {"decimeter", 0.1},
+                                                                          {"centimeter", 0.01},
+                                                                          {"cm", 0.01},
+                                                                          {"millimeter", 0.001},
+                                                                          {"mm", 0.001},
+                                                                          {"inch", 0.0254},
+                                                                          {"inches", 0.0254},
+                                                                          {"foot", 0.3048},
+                                                                          {"feet", 0.3048}}};
     for (const auto& [known, length] : kNames)
-      if (known == name && std::abs(metres - length) > 1e-3 * length)
+      if (known == lowered(name) && std::abs(metres - length) > 1e-3 * length)
         report_.note("<unit name=\"" + std::string(name) +
                      "\"> has the meter of another unit, which is used");
   }
 
   void end() override {
-    // Programs write translations of 0.000000000000000055 for 0. They cannot matter beside the
-    // rounding of positions to floats, unless scales make the positions small.
-    for (const XmlTag& translation : translations_)
-      checkDigits(translation, mayScale_ ? 0 : smallestMesh_);
     // assimp looks for the name before the id.
     for (const XmlTag& node : nodes_)
       if (const std::string url = "#" + std::string(node.value("name"));
@@ -365,9 +363,13 @@ class ColladaCheck : public XmlCheck {
   double unit_ = 1;
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
-  std::vector<XmlTag> translations_;
-  bool mayScale_ = false;           // there is a transform other than <translate> and <rotate>
-  double smallestMesh_ = HUGE_VAL;  // the least of the largest positions of meshes
+  /// The transforms of the node that is open at each depth. Its name is the place of its tag.
+  struct Travel {
+    std::size_t node = 0;
+    double scale = 1, length = 0;
+    int translations = 0, matrices = 0;
+  };
+  std::map<std::size_t, Travel> travels_;
   std::set<std::string_view> targets_, urls_, instanced_;
   std::vector<XmlTag> nodes_;
   // The last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.

@@ -17,10 +17,14 @@ struct NoNumber {
 
 }  // namespace
 
-bool isReadRightly(std::string_view word, double value, double largest) {
-  // Some five roundings to floats have a relative error of 5 * 2^-24. The decimals after the 15th,
-  // which assimp drops, and numbers near the least float are allowed to be lost.
-  const double slack = 1e-6 * std::abs(value) + 1e-14 * largest + 1e-30;
+bool isReadRightly(std::string_view word, double value) {
+  // Some five roundings to floats have a relative error of 5 * 2^-24. Numbers near the least float
+  // are allowed to be lost, and so are the decimals after the 15th, which assimp drops, unless an
+  // exponent makes them large.
+  const auto exponent = word.find_first_of("eE");
+  const bool grows =
+      exponent != word.npos && exponent + 1 < word.size() && word[exponent + 1] != '-';
+  const double slack = 1e-6 * std::abs(value) + (grows ? 1e-30 : kMostLostDecimals);
   const std::string text(word);
   ai_real read = 0;
   try {

@@ -219,7 +219,11 @@ std::optional<XmlTag> XmlCheck::next() {
       skipTo("?>");
     } else if (rest.starts_with("<!")) {
       skipTo(">");
-      if (text_.substr(at, at_ - at).find('[') != text_.npos)
+      // A quoted name may have a > in it, behind which declarations may follow.
+      const std::string_view declaration = text_.substr(at, std::min(at_, text_.size()) - at);
+      if (!declaration.starts_with("<!DOCTYPE") || declaration.find('[') != declaration.npos ||
+          std::count(declaration.begin(), declaration.end(), '"') % 2 != 0 ||
+          std::count(declaration.begin(), declaration.end(), '\'') % 2 != 0)
         fault(line_, "a DOCTYPE with declarations is not read; save the file without it");
     } else {
       XmlTag tag = xmlTagAt(text_, at);

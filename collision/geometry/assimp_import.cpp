@@ -49,42 +49,92 @@ Eigen::Affine3d inDoubles(const aiMatrix4x4& m) {
   return map;
 }
 
-/// Adds a mesh of the scene; polygons become fans. Sets `hasLines` if the mesh has lines or points.
-void addMesh(const aiMesh& from, const Eigen::Affine3d& map, AssimpImport& import, bool& hasLines) {
-  TriangleMesh& to = import.mesh;
-  const auto first = static_cast<std::uint32_t>(to.vertices.size());
-  for (unsigned i = 0; i < from.mNumVertices; ++i) {
-    const aiVector3D& v = from.mVertices[i];
-    to.vertices.push_back(map * Vec3(v.x, v.y, v.z));
-  }
-  for (unsigned i = 0; i < from.mNumFaces; ++i) {
-    const aiFace& face = from.mFaces[i];
-    if (face.mNumIndices < 3) {
-      hasLines = true;
-      continue;
-    }
-    if (std::any_of(face.mIndices, face.mIndices + face.mNumIndices,
-                    [&](unsigned corner) { return corner >= from.mNumVertices; }))
-      throw std::runtime_error("a face has a corner that is out of range");
-    if (face.mNumIndices > 3)
-      import.polygons.push_back(
-          {static_cast<std::uint32_t>(to.triangles.size()), face.mNumIndices - 2, 0, 0});
-    for (unsigned k = 2; k < face.mNumIndices; ++k)
-      to.triangles.push_back(
-          {first + face.mIndices[0], first + face.mIndices[k - 1], first + face.mIndices[k]});
-  }
-}
+/// Lengths along the path from the root to a node, without signs: `scale` bounds by how much the
+/// path's maps stretch, `length` the sum of its translations, in the units of the file.
+struct Path {
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  double scale = 1, length = 0;
 
-void addNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent,
-             AssimpImport& to, bool& hasLines) {
-  const Eigen::Affine3d map = parent * inDoubles(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    addMesh(*scene.mMeshes[node.mMeshes[i]], map, to, hasLines);
+  Path below(const aiNode& node, double travelInNode) const {
+    const Eigen::Affine3d step = inDoubles(node.mTransformation);
+    return {map * step, scale * step.linear().jacobiSvd().singularValues()[0],
+            length + scale * std::max(step.translation().norm(), travelInNode)};
   }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    addNode(scene, *node.mChildren[i], map, to, hasLines);
+};
+
+/// The largest rounding of a mesh, and whether it is too large.
+struct Rounding {
+  double largest = 0;
+  bool isTooLarge = false, isNotable = false;
+};
+
+class SceneReader {
+ public:
+  SceneReader(const aiScene& scene, double travelInNode, AssimpImport& import)
+      : scene_(scene), travelInNode_(travelInNode), import_(import) {}
+
+  void read() { addNode(*scene_.mRootNode, {}); }
+  bool hasLines() const { return hasLines_; }
+  const Rounding& rounding() const { return rounding_; }
+
+ private:
+  void addNode(const aiNode& node, const Path& parent) {
+    const Path path = parent.below(node, travelInNode_);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene_.mMeshes[node.mMeshes[i]], path);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(*node.mChildren[i], path);
   }
-}
+
+  /// Adds a mesh of the scene; polygons become fans.
+  void addMesh(const aiMesh& from, const Path& path) {
+    TriangleMesh& to = import_.mesh;
+    const auto first = static_cast<std::uint32_t>(to.vertices.size());
+    for (unsigned i = 0; i < from.mNumVertices; ++i) {
+      const aiVector3D& v = from.mVertices[i];
+      to.vertices.push_back(path.map * Vec3(v.x, v.y, v.z));
+    }
+    Eigen::AlignedBox3d box;
+    double farthest = 0;  // of the vertices of faces, in the mesh's own frame
+    for (unsigned i = 0; i < from.mNumFaces; ++i) {
+      const aiFace& face = from.mFaces[i];
+      if (face.mNumIndices < 3) {
+        hasLines_ = true;
+        continue;
+      }
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        const unsigned corner = face.mIndices[k];
+        if (corner >= from.mNumVertices)
+          throw std::runtime_error("a face has a corner that is out of range");
+        const aiVector3D& v = from.mVertices[corner];
+        farthest = std::max(farthest, Vec3(v.x, v.y, v.z).norm());
+        box.extend(to.vertices[first + corner]);
+      }
+      if (face.mNumIndices > 3)
+        import_.polygons.push_back(
+            {static_cast<std::uint32_t>(to.triangles.size()), face.mNumIndices - 2, 0, 0});
+      for (unsigned k = 2; k < face.mNumIndices; ++k)
+        to.triangles.push_back(
+            {first + face.mIndices[0], first + face.mIndices[k - 1], first + face.mIndices[k]});
+    }
+    if (!box.isEmpty()) judge(path, farthest, box.diagonal().norm());
+  }
+
+  /// Bounds the rounding of a mesh. A number of the file becomes a float (2^-24 of it), and assimp
+  /// multiplies the transforms of a node in floats: some four roundings for each of the lengths
+  /// that are added up. @param extent the size of the mesh
+  void judge(const Path& path, double farthest, double extent) {
+    const double error = 0x1p-22 * (path.scale * farthest + path.length) +
+                         4 * kMostLostDecimals * std::max(1.0, path.scale);
+    rounding_.largest = std::max(rounding_.largest, error);
+    rounding_.isTooLarge |= !(error <= 1e-2 * extent);
+    rounding_.isNotable |= !(error <= 1e-4 * extent);
+  }
+
+  const aiScene& scene_;
+  const double travelInNode_;
+  AssimpImport& import_;
+  bool hasLines_ = false;
+  Rounding rounding_;
+};
 
 /// Returns the number that the file most likely has, if assimp has stored it as the float `value`:
 /// the shortest decimal that rounds to that float.
@@ -121,6 +171,11 @@ double takeFileUnit(aiScene& scene, const std::string& format) {
     return shortestDecimal(unit);
   }
   return format.starts_with("glTF") ? 1 : 0;
+}
+
+std::string shortestDecimalText(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 2).ptr};
 }
 
 std::string oneLine(std::string text) {
@@ -258,15 +313,24 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   result.isCollada = result.format.starts_with("Collada");
   if (result.isCollada) checkColladaRoot(*scene, rules);
   if (kind == ContentKind::Gltf || kind == ContentKind::BinaryGltf) result.up = 'y';
-  bool hasLines = false;
+  std::unique_ptr<aiScene> own;
   if (rules == AssimpRules::Stored) {
-    const std::unique_ptr<aiScene> own(importer.GetOrphanedScene());
+    own.reset(importer.GetOrphanedScene());
     result.fileUnit = takeFileUnit(*own, result.format) + report.fileUnit;  // one of them is 0
-    addNode(*own, *own->mRootNode, Eigen::Affine3d::Identity(), result, hasLines);
-  } else {
-    addNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result, hasLines);
   }
-  if (hasLines) report.note(kNoteOnLines);
+  SceneReader reader(own ? *own : *scene, report.travelInNode, result);
+  reader.read();
+  if (reader.hasLines()) report.note(kNoteOnLines);
+  if (const Rounding& rounding = reader.rounding(); rounding.isTooLarge)
+    report.fault(file, 0,
+                 "assimp computes in floats, which may move a mesh by " +
+                     shortestDecimalText(rounding.largest) +
+                     " units of the file, more than a hundredth of its size; move it to the origin "
+                     "of its file, or save it as OBJ, STL, PLY or OFF");
+  else if (rounding.isNotable)
+    report.note("coordinates are computed in floats, which may move a mesh by " +
+                shortestDecimalText(rounding.largest) +
+                " units of the file, more than 1e-4 of its size");
   const auto triangles = static_cast<double>(result.mesh.triangles.size());
   if (const double inFile = report.triangles.value_or(triangles); inFile != triangles)
     report.fault(file, 0,

@@ -9,9 +9,9 @@ namespace corridor {
 constexpr std::size_t kMaxMeshElements = 100'000'000;
 
 /// The maximum of the sum of squares of the numbers of corners, over the polygons of a file that
-/// are not convex: one of 30,000 corners, or 10^6 of 30. To cut a polygon takes up to 10 ns times
+/// are not convex: one of 10,000 corners, or 10^5 of 30. To cut a polygon takes up to 0.2 µs times
 /// this square.
-constexpr double kMostPolygonWork = 1e9;
+constexpr double kMostPolygonWork = 1e8;
 
 /// The note on a mesh file with lines or points.
 constexpr const char* kNoteOnLines = "lines and points have no volume, and are not read";

@@ -69,6 +69,10 @@ class MapReader {
       else
         readNode(root, 0);
     }
+    if (nodes_ == 1 && binary_)
+      faults_.fail(0,
+                   "the tree has a root only, whose state this form of a map does not store; save "
+                   "the full form");
     if (const std::size_t rest = bytes_.size() - at_)
       faults_.fail(0, (rest == 1 ? "1 byte comes" : std::to_string(rest) + " bytes come") +
                           " after the last node: the " + container() + " is damaged");

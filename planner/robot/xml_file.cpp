@@ -152,6 +152,18 @@ XmlFile::XmlFile(std::filesystem::path file, const std::string& what,
   open(what, xacro);
 }
 
+namespace {
+
+/// Returns whether a declaration "DOCTYPE robot …" may set attributes or entities. TinyXML-2 ends
+/// it at the first >, also within a quoted name, behind which declarations may follow.
+bool mayDeclare(std::string_view text) {
+  return !text.starts_with("DOCTYPE") || text.find('[') != text.npos ||
+         std::count(text.begin(), text.end(), '"') % 2 != 0 ||
+         std::count(text.begin(), text.end(), '\'') % 2 != 0;
+}
+
+}  // namespace
+
 void XmlFile::open(const std::string& what, const std::vector<std::string>& xacro) {
   std::string text;
   try {
@@ -172,7 +184,7 @@ void XmlFile::open(const std::string& what, const std::vector<std::string>& xacr
                           ? "; there is no </robot>, so the file may end early"
                           : ""));
   for (const auto* node = document_.FirstChild(); node; node = node->NextSibling())
-    if (node->ToUnknown() && std::string_view(node->Value()).find('[') != std::string_view::npos)
+    if (node->ToText() || (node->ToUnknown() && mayDeclare(node->Value())))
       return fault(node->GetLineNum(),
                    "a DOCTYPE with declarations is not read; save the file without it");
   Element* const first = document_.RootElement();

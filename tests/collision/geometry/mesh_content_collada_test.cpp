@@ -42,6 +42,12 @@ TEST_F(MeshContent, ColladaElements) {
   EXPECT_THAT(complaint("a.dae", "<!DOCTYPE COLLADA [<!ENTITY a \"<!--\">]>" + collada()),
               StartsWith("a.dae:1: a DOCTYPE with declarations is not read; save the file without "
                          "it"));
+  EXPECT_THAT(complaint("a.dae",
+                        "<!DOCTYPE COLLADA SYSTEM \"a>b\" [<!ATTLIST unit meter CDATA "
+                        "\"0.01\">]>" +
+                            collada()),
+              StartsWith("a.dae:1: a DOCTYPE with declarations is not read; save the file without "
+                         "it"));
   for (const std::string name : {"convex_mesh", "brep"})
     EXPECT_EQ(complaint("a.dae", collada("", "",
                                          "<library_geometries><geometry id=\"h\"><" + name +
@@ -77,17 +83,20 @@ TEST_F(MeshContent, ColladaCountsAndUrls) {
             "a.dae:3: <float_array> has 10 numbers, and the count is \"9\"; correct one of them");
 }
 
-/// Programs write numbers such as 5.5e-17 for 0. Where scales make the mesh small, they may matter.
-TEST_F(MeshContent, ColladaTranslationsNearZero) {
+/// Programs write such numbers for 0. An exponent makes lost decimals large.
+TEST_F(MeshContent, ColladaDecimalsAfterThe15th) {
   const auto moved = [](const std::string& transform) {
     return collada("<node>" + transform + "<instance_geometry url=\"#g\"/></node>");
   };
-  const std::string tiny = "<translate>0.000000000000000055 0 -2.2e-16</translate>";
-  EXPECT_EQ(complaint("a.dae", moved(tiny)), "no complaint");
-  const std::string misread =
-      ", which assimp misreads; write decimal numbers with at most 15 digits";
-  EXPECT_EQ(complaint("a.dae", moved(tiny + "<scale>1 1 1e-9</scale>")),
-            "a.dae:8: <translate> has \"0.000000000000000055\"" + misread);
+  EXPECT_EQ(complaint("a.dae", moved("<translate>0.000000000000000055 0 -2.2e-16</translate>")),
+            "no complaint");
+  EXPECT_EQ(complaint("a.dae", moved("<translate>0.0000000000000001e17 0 0</translate>")),
+            "a.dae:8: <translate> has \"0.0000000000000001e17\", which assimp misreads; write "
+            "decimal numbers with at most 15 digits");
+  // A scale does so, too.
+  EXPECT_THAT(complaint("a.dae", moved("<scale>1e15 1e15 1e15</scale><scale>1e-15 1e-15 1e-15"
+                                       "</scale><translate>0.000000000000000055 0 0</translate>")),
+              "no complaint");
 }
 
 TEST_F(MeshContent, ColladaUnitsOfOtherNames) {

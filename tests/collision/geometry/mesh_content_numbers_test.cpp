@@ -134,12 +134,16 @@ TEST_F(MeshContent, ColladaTransforms) {
   };
   EXPECT_EQ(corner("0 0 10 0"), Vec3(0, 2, 0)) << "an angle of 0 is the identity";
   EXPECT_LT((corner("0.57735 0.57735 0.57735 120") - Vec3(0, 0, 2)).norm(), 1e-5);
-  EXPECT_EQ(complaint("a.dae", at("<lookat>5 6 7 5 6 0 0 1 0</lookat>")), "no complaint");
-  EXPECT_EQ(complaint("a.dae", at("<lookat>5 6 7 5 6 0 0 1 1</lookat>")),
-            "a.dae:4: the upward direction of <lookat> is not perpendicular to its line of sight, "
-            "and assimp would distort the mesh; write a <matrix>");
+  EXPECT_EQ(complaint("a.dae", at("<lookat>5 6 7 5 6 0 0 1 0</lookat>")),
+            "a.dae:4: " + notRight("lookat"));
+  EXPECT_EQ(complaint("a.dae", at("<rotate>0 0 1 3600000180</rotate>")),
+            "a.dae:4: the angle of <rotate> is rounded to a float; write one from -720 to 720");
+  const std::string one = "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>";
+  EXPECT_EQ(complaint("a.dae", at(one)), "no complaint");
+  EXPECT_EQ(complaint("a.dae", at(one + one)),
+            "a.dae:4: a <node> has two <matrix>; multiply them, or write two nodes");
   for (const auto& [name, size] : std::vector<std::pair<std::string, std::string>>{
-           {"rotate", "4"}, {"translate", "3"}, {"scale", "3"}, {"matrix", "16"}, {"lookat", "9"}})
+           {"rotate", "4"}, {"translate", "3"}, {"scale", "3"}, {"matrix", "16"}})
     for (const std::string numbers : {"1", "1 2 x", "1,2,3", "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8"})
       EXPECT_EQ(complaint("a.dae", at("<" + name + ">" + numbers + "</" + name + ">")),
                 "a.dae:4: <" + name + "> needs " + size + " decimal numbers");
@@ -184,6 +188,41 @@ TEST_F(MeshContent, ColladaDigits) {
         "1.1754943508222875e-38", "4.371138828673793e-08", "0.70710678118654752440"})
     EXPECT_EQ(array(word), "no complaint") << word;
   EXPECT_EQ(node("6.1232339957367660e-17"), "no complaint");
+}
+
+/// Lengths that cancel in real arithmetic, but not in floats.
+TEST_F(MeshContent, LengthsThatCancel) {
+  const auto fault = [&](const std::string& node) {
+    ColladaParts parts;
+    parts.node = node;
+    return complaint("a.dae", colladaOf(parts));
+  };
+  const std::string moves = "a.dae: assimp computes in floats, which may move a mesh by ";
+  EXPECT_EQ(
+      fault("<translate>5000000.3 0 0</translate><translate>-5000000 0 0</translate>"),
+      moves +
+          "2.4 units of the file, more than a hundredth of its size; move it to the origin of "
+          "its file, or save it as OBJ, STL, PLY or OFF");
+  for (const std::string cancel :
+       {"<translate>100000000 0 0</translate><translate>-99999998 0 0</translate>",
+        "<scale>.001 1 1</scale><translate>1e9 0 0</translate><translate>-1e9 0 0</translate>",
+        "<matrix>1 0 0 1e8 0 1 0 0 0 0 1 0 0 0 0 1</matrix><translate>-1e8 0 0</translate>",
+        "<scale>1e8 1 1</scale><rotate>0 0 1 30</rotate><scale>1e-8 1 1</scale>"
+        "<translate>-1e8 0 0</translate><translate>1e8 0 0</translate>"})
+    EXPECT_THAT(fault(cancel), StartsWith(moves)) << cancel;
+  // A pivot, and the unit of a part.
+  EXPECT_EQ(fault("<translate>1 2 3</translate><rotate>0 0 1 30</rotate>"
+                  "<translate>-1 -2 -3</translate>"),
+            "no complaint");
+  EXPECT_EQ(fault("<scale>.001 .001 .001</scale><translate>1000 0 0</translate>"), "no complaint");
+  // Positions far from the origin.
+  ColladaParts far;
+  far.array = "count=\"9\">5000000.3 0 0 5000001 0 0 5000000 2 0";
+  EXPECT_THAT(complaint("a.dae", colladaOf(far)), StartsWith(moves));
+  far.array = "count=\"9\">2000.3 0 0 2001 0 0 2000 2 0";
+  EXPECT_THAT(notesOf("a.dae", colladaOf(far)),
+              testing::Contains("coordinates are computed in floats, which may move a mesh by "
+                                "0.00048 units of the file, more than 1e-4 of its size"));
 }
 
 TEST_F(MeshContent, IndicesBeyondTheRange) {

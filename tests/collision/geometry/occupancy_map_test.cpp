@@ -124,6 +124,9 @@ TEST(OccupancyMap, Faults) {
   EXPECT_EQ(with("res 0.1", "res small"),
             "map.bt:6: res: coordinate \"small\" is not a number; write decimal numbers such as "
             "-1.25e-3");
+  EXPECT_EQ(complaintOf(header(1) + std::string(2, '\0')),
+            "map.bt: the tree has a root only, whose state this form of a map does not store; save "
+            "the full form");
   EXPECT_EQ(with("res 0.1", "res 10 cm"),
             "map.bt:6: \"cm\" comes after the value of \"res\"; one value is needed");
   EXPECT_EQ(with("res 0.1", "res 0.1\nres 0.2"), "map.bt:7: the header has a second line \"res\"");
