@@ -122,8 +122,9 @@ class SceneReader {
   /// multiplies the transforms of a node in floats: some four roundings for each of the lengths
   /// that are added up. @param extent the size of the mesh
   void judge(const Path& path, double farthest, double extent) {
-    const double error = 0x1p-22 * (path.scale * farthest + path.length) +
-                         4 * kMostLostDecimals * std::max(1.0, path.scale);
+    const double sum = path.scale * farthest + path.length;
+    if (sum == 0) return;  // all vertices are the origin
+    const double error = 0x1p-22 * sum + 4 * kMostLostDecimals * std::max(1.0, path.scale);
     rounding_.largest = std::max(rounding_.largest, error);
     rounding_.isTooLarge |= !(error <= 1e-2 * extent);
     rounding_.isNotable |= !(error <= 1e-4 * extent);

@@ -317,7 +317,7 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
     const Vec3& corner = mesh.vertices[polygon.vertices[0]];
     if (polygon.deviation > kFlat * polygon.extent) {
       ++bent.count;
-      if (polygon.deviation * polygon.size >= largest) {
+      if (polygon.deviation * polygon.size > largest) {
         largest = polygon.deviation * polygon.size;
         bent.first = placeOf(fan, corner);
       }

@@ -69,10 +69,6 @@ class MapReader {
       else
         readNode(root, 0);
     }
-    if (nodes_ == 1 && binary_)
-      faults_.fail(0,
-                   "the tree has a root only, whose state this form of a map does not store; save "
-                   "the full form");
     if (const std::size_t rest = bytes_.size() - at_)
       faults_.fail(0, (rest == 1 ? "1 byte comes" : std::to_string(rest) + " bytes come") +
                           " after the last node: the " + container() + " is damaged");
@@ -80,6 +76,10 @@ class MapReader {
       faults_.fail(0, "the header promises " + std::to_string(*promised_) +
                           " nodes, but the data have " + std::to_string(nodes_) +
                           ": the file is damaged");
+    if (nodes_ == 1 && binary_)
+      faults_.fail(0,
+                   "the tree has a root only, whose state this form of a map does not store; save "
+                   "the full form");
     if (rules_.unknownIsOccupied) addUnknown();
     return std::move(map_);
   }

@@ -259,7 +259,7 @@ TEST_F(PolygonFiles, PolygonsThatAreNotFlat) {
       read("a.obj", square + "0.4" + face + "f 4 3 2 1\n").notes,
       ElementsAre(
           "2 polygons are not flat: their surface is that of the triangles into which it is cut; "
-          "the largest deviation from a plane is 0.0962 units of the file, at line 6"));
+          "the largest deviation from a plane is 0.0962 units of the file, at line 5"));
 }
 
 /// Polygons for which no surface is right, or whose area is nothing, stay fans.

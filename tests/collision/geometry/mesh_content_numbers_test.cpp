@@ -201,7 +201,7 @@ TEST_F(MeshContent, LengthsThatCancel) {
   EXPECT_EQ(
       fault("<translate>5000000.3 0 0</translate><translate>-5000000 0 0</translate>"),
       moves +
-          "2.4 units of the file, more than a hundredth of its size; move it to the origin of "
+          "4.8 units of the file, more than a hundredth of its size; move it to the origin of "
           "its file, or save it as OBJ, STL, PLY or OFF");
   for (const std::string cancel :
        {"<translate>100000000 0 0</translate><translate>-99999998 0 0</translate>",
