@@ -436,6 +436,9 @@ class GltfCheck {
 
 void checkGltf(const std::string& file, std::string_view json, ContentReport& report,
                bool isBinary) {
+  if (json.starts_with("\xEF\xBB\xBF"))
+    return report.fault(file, 0,
+                        "begins with a byte-order mark, which glTF doesn't allow; remove it");
   if (const auto root = parse(file, json, report)) GltfCheck(file, *root, isBinary, report).run();
 }
 

@@ -177,6 +177,11 @@ TEST_F(Gltf, TrianglesAreCounted) {
             "the mode of a primitive is 7; 0 to 6 is needed");
 }
 
+TEST_F(Gltf, ByteOrderMark) {
+  EXPECT_EQ(complaint("a.gltf", "\xEF\xBB\xBF" + gltf()),
+            "a.gltf: begins with a byte-order mark, which glTF doesn't allow; remove it");
+}
+
 TEST_F(Gltf, VersionsOtherThan2) {
   const auto asset = [](const std::string& members) {
     return with(gltf(), R"({"version": "2.0"})", "{" + members + "}");
