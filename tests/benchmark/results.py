@@ -27,7 +27,7 @@ SECTIONS = {
     "Shared workloads": ["workloads", "workloads_apart"],
     "Two meshes": ["two_meshes", "trees_bytes"],
     "The tolerance query": ["tolerance"],
-    "Convex polytopes": ["polytopes", "polytopes_methods", "polytopes_intersection"],
+    "Convex polytopes": ["polytopes", "polytopes_ninety", "polytopes_built"],
     "Convex polytopes in small steps": ["polytopes_steps", "polytopes_rounds"],
     "Boxes that move": ["moving_boxes"],
     "Fronts of meshes in small steps": ["fronts"],
