@@ -168,7 +168,11 @@ std::vector<Row> allOptions() {
            "normals of faces and the cross products of edges (interference only); its time grows "
            "with the product of the numbers of edges, so it is for small hulls. barba-langerman "
            "tests parts of an inner hierarchy of A against parts of an outer one of B "
-           "(interference only)",
+           "(interference only). Verdicts of axes, vclip and barba-langerman are exact; so are "
+           "those "
+           "of lp, for the rounded vertices. The other three may report contact for gaps below "
+           "2^-44 "
+           "of the largest coordinate",
        Checks{.noun = "method",
               .words = hullMethods(),
               .excludes = {Rule{{"--motions"},
