@@ -98,12 +98,18 @@ struct PoseInput {
   }
 };
 
+/// Returns the vector of --direction. @throws InputError if it is 0.
+std::optional<Vec3> directionOf(const QueryArguments& a) {
+  if (!a.direction) return std::nullopt;
+  const Vec3 direction = parsePoint("--direction", *a.direction);
+  if (direction.isZero(0))
+    throw InputError(Fault{"--direction", 0, "0,0,0 is no direction; give a vector x,y,z"});
+  return direction;
+}
+
 /// Computes and prints bounds of the penetration depth at many poses. @returns the exit status.
 int queryDepth(const QueryArguments& a, const NamedQuery& query) {
-  std::optional<Vec3> direction;
-  if (a.direction) direction = parsePoint("--direction", *a.direction);
-  if (direction && direction->isZero(0))
-    throw InputError(Fault{"--direction", 0, "0,0,0 is no direction; give a vector x,y,z"});
+  const std::optional<Vec3> direction = directionOf(a);
   PoseInput input(a);
   const BatchResult result = runDepths(std::move(input.meshA.mesh), std::move(input.meshB.mesh),
                                        input.poses, direction, static_cast<int>(a.repeat));
@@ -116,9 +122,10 @@ int queryDepth(const QueryArguments& a, const NamedQuery& query) {
 
 int queryConvexHulls(const QueryArguments& a) {
   requireHullQuery(*a.hulls, a.query, a.coherent);
+  const std::optional<Vec3> direction = directionOf(a);
   const PoseInput input(a);
   queryHulls({input.meshA.mesh, a.meshA}, {input.meshB.mesh, a.meshB}, input.poses, *a.hulls,
-             a.query, a.coherent, static_cast<int>(a.repeat));
+             a.query, direction, a.coherent, static_cast<int>(a.repeat));
   return kDone;
 }
 
@@ -196,7 +203,8 @@ void addQuery(CLI::App& program, int& status) {
           "ay,az,bx,by,bz,steps, with a proved lower bound, the direction that proves it, and a "
           "closest point of each hull; depth: pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz,steps, "
           "with bounds of the "
-          "least length by which B must move to leave A, and the direction; steps are rounds of "
+          "least length by which B must move to leave A, at all or along --direction (inf, if no "
+          "length is proved to be enough), and the direction; steps are rounds of "
           "the search, with vclip also pairs of features, with axes the axes tested, with lp 0, "
           "with barba-langerman the tests of two parts\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"

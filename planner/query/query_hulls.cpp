@@ -115,7 +115,8 @@ void requireHullQuery(const std::string& method, const std::optional<std::string
 
 void queryHulls(const HullInput& inputA, const HullInput& inputB,
                 const std::vector<Transform>& poses, const std::string& method,
-                const std::optional<std::string>& asked, bool coherent, int repeat) {
+                const std::optional<std::string>& asked, const std::optional<Vec3>& direction,
+                bool coherent, int repeat) {
   const std::string query = asked.value_or("interference");
   const Hull a(inputA, method), b(inputB, method);
   const ConvexSet setA = a.by(method), setB = b.by(method);
@@ -175,7 +176,8 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
       } else if (query == "distance") {
         takeDistance(convexDistance(placedA, placedB, 0, 0, &last.simplex));
       } else {
-        const Penetration d = penetration(placedA, placedB);
+        const Penetration d = direction ? penetrationAlong(placedA, placedB, *direction)
+                                        : penetration(placedA, placedB);
         hit = d.upper > 0;
         answer = numbers({d.lower, d.upper}) + numbers(d.direction_W) + numbers(d.p_WA) +
                  numbers(d.p_WB);

@@ -34,13 +34,15 @@ struct HullInput {
 
 /// Queries the convex hulls of the vertices of two meshes at many poses of b: CSV on stdout, a
 /// summary on stderr.
+/// @param direction with the query depth: the direction along which b leaves a, not 0; nullopt:
+/// any.
 /// @param coherent each query begins with data that the query at the preceding pose has kept, such
 /// as a separating axis or a pair of features.
 /// @param repeat the number of passes over all poses.
 /// @throws InputError for a mesh whose vertices are all on one plane, and for a pose that the
 /// method does not take. @pre `requireHullQuery` accepts the arguments.
 void queryHulls(const HullInput& a, const HullInput& b, const std::vector<Transform>& poses,
-                const std::string& method, const std::optional<std::string>& query, bool coherent,
-                int repeat);
+                const std::string& method, const std::optional<std::string>& query,
+                const std::optional<Vec3>& direction, bool coherent, int repeat);
 
 }  // namespace corridor::app

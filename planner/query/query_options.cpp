@@ -127,11 +127,9 @@ std::vector<Row> allOptions() {
        "the query; the first is the default: " + joined(namesOf(namedQueries())),
        Checks{.noun = "query", .words = namesOf(namedQueries()), .excludes = {noMotions}}},
       {"--direction", &Q::direction, query,
-       "x,y,z, of any length: with --query depth of meshes, the direction along which B leaves A "
-       "(default: the best of several); depth chooses its trees",
-       Checks{.excludes = {noMotions,
-                           Rule{{"--hulls"}, "is for the depth of meshes, not with --hulls"}},
-              .needs = {Rule{{"--query depth"}, "needs --query depth"}}}},
+       "x,y,z, of any length: with --query depth, the direction along which B leaves A (default: "
+       "for meshes the best of several, for hulls the best of all)",
+       Checks{.excludes = {noMotions}, .needs = {Rule{{"--query depth"}, "needs --query depth"}}}},
       {"--volume", &Q::volume, query,
        "the bounding volume; the first is the default: " + joined(namesOf(volumeKinds())) + ", " +
            kOctree + " (a tree over space, for --query interference only)",

@@ -25,7 +25,7 @@ struct QueryArguments {
   std::optional<std::string> fit, overlap, build;  ///< unset: the first that the volume has
   std::optional<std::string> hulls;                ///< query the convex hulls, by this method
   std::vector<std::string> deform;                 ///< further shapes of A, one file per frame
-  std::optional<std::string> direction;            ///< "x,y,z", for the depth of meshes
+  std::optional<std::string> direction;            ///< "x,y,z", for the depth
   bool coherent = false;                           ///< with `hulls` only: see `queryHulls`
   std::optional<double> tolerance;  ///< metres; for the tolerance query and for motions
   std::uint64_t repeat = 1;

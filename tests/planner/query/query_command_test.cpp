@@ -84,6 +84,15 @@ TEST_F(QueryCommand, DepthOfMeshes) {
   const auto up = rows("--poses poses.txt --query depth --direction 0,0,3");
   EXPECT_NEAR(up[1][2], 0.8, 1e-4);
   EXPECT_EQ(up[1][5], 1);
+  for (const std::string method : {"hierarchy", "climbing", "every-vertex"}) {
+    const auto hulls = rows("--poses poses.txt --query depth --direction 0,0,3 --hulls " + method);
+    ASSERT_EQ(hulls.size(), 2u);
+    EXPECT_EQ(hulls[0][2], 0);
+    EXPECT_LE(hulls[1][1], 0.8);
+    EXPECT_GE(hulls[1][2], 0.8);
+    EXPECT_NEAR(hulls[1][1], hulls[1][2], 1e-8);
+    EXPECT_EQ(hulls[1][5], 1);
+  }
   const auto fault = [&](const std::string& options) {
     const Result result = query("--poses poses.txt " + options);
     EXPECT_EQ(result.status, 2) << options;
@@ -173,8 +182,8 @@ TEST_F(QueryCommand, HullsOnBadInput) {
               HasSubstr("unknown query with --hulls: \"contacts\""));
   EXPECT_EQ(fault("--hulls climbing --volume aabb"),
             "--volume: can't be used with --hulls, which needs no trees\n");
-  EXPECT_EQ(fault("--hulls climbing --query depth --direction 1,0,0"),
-            "--direction: is for the depth of meshes, not with --hulls\n");
+  EXPECT_EQ(fault("--hulls climbing --query depth --direction 0,0,0"),
+            "--direction: 0,0,0 is no direction; give a vector x,y,z\n");
   EXPECT_EQ(fault("--hulls climbing --build median"),
             "--build: can't be used with --hulls, which needs no trees\n");
   expectFault("query a.obj b.obj --motions motions.txt --hulls climbing",
