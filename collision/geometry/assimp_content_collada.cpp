@@ -7,6 +7,7 @@
 
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content_xml.h"
+#include "collision/geometry/column_names.h"
 
 namespace corridor {
 namespace {
@@ -287,8 +288,7 @@ class ColladaCheck : public XmlCheck {
 
   /// Adds a transform to those of its node.
   void addTravel(const XmlTag& tag, const std::vector<double>& numbers) {
-    Travel& travel = travels_[open_.size()];
-    if (const std::size_t node = open_[open_.size() - 2].from; travel.node != node) travel = {node};
+    Travel& travel = travels_[open_[open_.size() - 2].from];
     if (tag.name == "matrix" && ++travel.matrices > 1)
       fault(tag.line, "a <node> has two <matrix>; multiply them, or write two nodes");
     if (tag.name == "scale")
@@ -328,22 +328,10 @@ class ColladaCheck : public XmlCheck {
 
   /// Notes a unit whose name belongs to another length: the length counts.
   void noteUnitName(std::string_view name, double metres) {
-    constexpr std::array<std::pair<std::string_view, double>, 12> kNames{{{"meter", 1},
-                                                                          {"metre", 1},
-                                                                          {"m", 1},
-                                                                          {"decimeter", 0.1},
-                                                                          {"centimeter", 0.01},
-                                                                          {"cm", 0.01},
-                                                                          {"millimeter", 0.001},
-                                                                          {"mm", 0.001},
-                                                                          {"inch", 0.0254},
-                                                                          {"inches", 0.0254},
-                                                                          {"foot", 0.3048},
-                                                                          {"feet", 0.3048}}};
-    for (const auto& [known, length] : kNames)
-      if (known == lowered(name) && std::abs(metres - length) > 1e-3 * length)
-        report_.note("<unit name=\"" + std::string(name) +
-                     "\"> has the meter of another unit, which is used");
+    const double length = metresOfUnit(lowered(name));
+    if (length > 0 && std::abs(metres - length) > 1e-3 * length)
+      report_.note("<unit name=\"" + std::string(name) +
+                   "\"> has the meter of another unit, which is used");
   }
 
   void end() override {
@@ -363,9 +351,8 @@ class ColladaCheck : public XmlCheck {
   double unit_ = 1;
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
-  /// The transforms of the node that is open at each depth. Its name is the place of its tag.
+  /// The transforms of each node, by the place of its tag.
   struct Travel {
-    std::size_t node = 0;
     double scale = 1, length = 0;
     int translations = 0, matrices = 0;
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -24,6 +25,7 @@
 #include <assimp/scene.h>
 
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content.h"
 #include "collision/geometry/assimp_content_scene.h"
@@ -62,10 +64,10 @@ struct Path {
   }
 };
 
-/// The largest rounding of a mesh, and whether it is too large.
+/// The rounding of a mesh that is the largest in parts of the mesh's size.
 struct Rounding {
-  double largest = 0;
-  bool isTooLarge = false, isNotable = false;
+  double error = 0;  ///< in units of the file
+  double share = 0;  ///< of the mesh's size
 };
 
 class SceneReader {
@@ -125,9 +127,8 @@ class SceneReader {
     const double sum = path.scale * farthest + path.length;
     if (sum == 0) return;  // all vertices are the origin
     const double error = 0x1p-22 * sum + 4 * kMostLostDecimals * std::max(1.0, path.scale);
-    rounding_.largest = std::max(rounding_.largest, error);
-    rounding_.isTooLarge |= !(error <= 1e-2 * extent);
-    rounding_.isNotable |= !(error <= 1e-4 * extent);
+    const double share = extent > 0 ? error / extent : HUGE_VAL;
+    if (!(share <= rounding_.share)) rounding_ = {error, share};
   }
 
   const aiScene& scene_;
@@ -172,11 +173,6 @@ double takeFileUnit(aiScene& scene, const std::string& format) {
     return shortestDecimal(unit);
   }
   return format.starts_with("glTF") ? 1 : 0;
-}
-
-std::string shortestDecimalText(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 2).ptr};
 }
 
 std::string oneLine(std::string text) {
@@ -322,16 +318,15 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
   SceneReader reader(own ? *own : *scene, report.travelInNode, result);
   reader.read();
   if (reader.hasLines()) report.note(kNoteOnLines);
-  if (const Rounding& rounding = reader.rounding(); rounding.isTooLarge)
+  if (const Rounding& rounding = reader.rounding(); !(rounding.share <= 1e-2))
     report.fault(file, 0,
                  "assimp computes in floats, which may move a mesh by " +
-                     shortestDecimalText(rounding.largest) +
+                     withDigits(rounding.error, 2) +
                      " units of the file, more than a hundredth of its size; move it to the origin "
                      "of its file, or save it as OBJ, STL, PLY or OFF");
-  else if (rounding.isNotable)
+  else if (rounding.share > 1e-4)
     report.note("coordinates are computed in floats, which may move a mesh by " +
-                shortestDecimalText(rounding.largest) +
-                " units of the file, more than 1e-4 of its size");
+                withDigits(rounding.error, 2) + " units of the file, more than 1e-4 of its size");
   const auto triangles = static_cast<double>(result.mesh.triangles.size());
   if (const double inFile = report.triangles.value_or(triangles); inFile != triangles)
     report.fault(file, 0,

@@ -262,11 +262,15 @@ constexpr double kThin = 1e-5;
 /// that is more than a choice.
 constexpr double kBent = 0.01;
 
+std::string textOf(const Vec3& corner) {
+  return '(' + shortest(corner.x()) + ", " + shortest(corner.y()) + ", " + shortest(corner.z()) +
+         ')';
+}
+
 std::string nameOfPolygon(const PolygonFan& fan, const Vec3& corner) {
   const std::string polygon = "a polygon of " + std::to_string(fan.triangles + 2) + " corners";
   if (fan.face > 0) return "face " + std::to_string(fan.face) + ", " + polygon + ',';
-  return polygon + " with a corner at (" + shortest(corner.x()) + ", " + shortest(corner.y()) +
-         ", " + shortest(corner.z()) + ')';
+  return polygon + " with a corner at " + textOf(corner);
 }
 
 /// Polygons of one kind, for a note.
@@ -282,8 +286,7 @@ struct NotedPolygons {
 std::string placeOf(const PolygonFan& fan, const Vec3& corner) {
   return fan.line > 0   ? "line " + std::to_string(fan.line)
          : fan.face > 0 ? "face " + std::to_string(fan.face)
-                        : "the corner (" + shortest(corner.x()) + ", " + shortest(corner.y()) +
-                              ", " + shortest(corner.z()) + ')';
+                        : "the corner " + textOf(corner);
 }
 
 /// Returns two edges that cross at a point within both, as a text; "" if none of the first 1000 do.
@@ -323,8 +326,8 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
       }
     }
     const std::vector<Vec2> front = polygon.projected(mesh, true);
-    const auto n = static_cast<double>(front.size());
-    if (!isConvexPolygon(front)) work += n * n;
+    if (isConvexPolygon(front)) continue;  // its fan is right
+    work += static_cast<double>(front.size()) * static_cast<double>(front.size());
     if (work > kMostPolygonWork)
       faults.fail(fan.line, "the polygons that are not convex have too many corners (" +
                                 nameOfPolygon(fan, corner) +
