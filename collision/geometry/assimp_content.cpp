@@ -11,14 +11,18 @@ ContentKind contentKindOf(std::string_view extension) {
                                 : ContentKind::Other;
 }
 
+double lengthError(const double* numbers, int size) {
+  double square = 0;
+  for (int i = 0; i < size; ++i) square += numbers[i] * numbers[i];
+  return std::abs(square - 1);
+}
+
 bool hasLengthOne(const double* numbers, int size) {
   // Coordinates of d digits behind the point are off by h = 10^-d / 2 at most, so the square of a
   // length is off by 2 h sqrt(size) + size h^2 <= 4 h + 4 h^2: 2e-6 for the six digits that files
   // commonly have. The slack also covers most axes of five digits, such as 0.57735.
   constexpr double kSlack = 1e-5;
-  double square = 0;
-  for (int i = 0; i < size; ++i) square += numbers[i] * numbers[i];
-  return std::abs(square - 1) <= kSlack;
+  return lengthError(numbers, size) <= kSlack;
 }
 
 void ContentReport::fault(const std::string& file, int line, const std::string& text) {

@@ -29,9 +29,13 @@ class ContentReport {
   std::vector<Fault> faults;
   std::vector<std::string> notes;
   double fileUnit = 0;  ///< metres; 0: no 3MF file
-  /// The largest sum of the lengths of the translations within one node of several: assimp adds
-  /// them up in floats.
-  double travelInNode = 0;
+  /// What assimp does to the transforms within one node, at most over the nodes of the file.
+  struct NodeBound {
+    double length = 0;    ///< the sum of the lengths of several translations, without signs
+    double rounding = 0;  ///< the relative error of the product of the transforms
+  };
+  NodeBound node;
+  bool isText = false;  ///< coordinates and translations may have lost `kMostLostDecimals`
   /// The number of triangles in the file; nullopt if it is not counted.
   std::optional<double> triangles;
 
@@ -49,14 +53,22 @@ void checkContent(ContentKind kind, const std::string& file, std::string_view by
 /// Returns whether an axis (three numbers) or a quaternion (four) has the length 1, apart from its
 /// digits. assimp does not normalise rotations: another length would distort the mesh.
 bool hasLengthOne(const double* numbers, int size);
+/// Returns by how much the square of that length differs from 1, up to the slack of `hasLengthOne`.
+/// The rotation that assimp computes is off by twice as much.
+double lengthError(const double* numbers, int size);
 
-/// Returns whether assimp reads a decimal number as its value, apart from the rounding to floats
-/// and from `kMostLostDecimals`. assimp's function for numbers of text (fast_atof) misreads those
-/// of more than 18 digits before the point, and drops the decimals after the 15th, also where a
-/// positive exponent follows.
-bool isReadRightly(std::string_view word, double value);
-/// What the decimals after the 15th may amount to.
+/// Returns whether assimp reads a decimal number as its value, apart from `kNumberRounding` and
+/// from an absolute slack. assimp's function for numbers of text (fast_atof) misreads those of more
+/// than 18 digits before the point, and drops the decimals after the 15th, also where a positive
+/// exponent follows.
+bool isReadRightly(std::string_view word, double value, double slack);
+/// The relative rounding of a number that becomes a float: five roundings of 2^-24 in assimp's
+/// function, and some slack.
+constexpr double kNumberRounding = 0x1p-21;
+/// What the decimals after the 15th amount to, if no exponent follows.
 constexpr double kMostLostDecimals = 1e-15;
+/// A length whose rounding is as large as what is lost in three directions.
+constexpr double kLostLength = 1.8 * kMostLostDecimals / kNumberRounding;
 
 /// The parts of `checkContent`.
 /// @param isBinary whether the JSON is that of a GLB file

@@ -7,7 +7,6 @@
 
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_content_xml.h"
-#include "collision/geometry/column_names.h"
 
 namespace corridor {
 namespace {
@@ -230,14 +229,15 @@ class ColladaCheck : public XmlCheck {
       fault(array.line, "<float_array> has " + std::to_string(numbers) +
                             " numbers, and the count is \"" + std::string(array.value("count")) +
                             "\"; correct one of them");
-    checkDigits(array);
+    checkDigits(array, kMostLostDecimals);
   }
 
-  /// Checks that assimp reads an element's numbers as they are.
-  void checkDigits(const XmlTag& tag) {
+  /// Checks that assimp reads an element's numbers as they are. @param slack for lost decimals
+  void checkDigits(const XmlTag& tag, double slack) {
+    report_.isText = true;
     std::string_view rest = tag.content;
     for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest))
-      if (!isReadRightly(word, numberIn(word)))
+      if (!isReadRightly(word, numberIn(word), slack))
         return fault(tag.line, "<" + std::string(tag.name) + "> has \"" +
                                    std::string(word.substr(0, 64)) + '"' + kDigits);
   }
@@ -275,34 +275,59 @@ class ColladaCheck : public XmlCheck {
         std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }))
       return fault(tag.line, "<" + std::string(tag.name) + "> needs " + std::to_string(size) +
                                  " decimal numbers");
-    checkDigits(tag);
+    checkDigits(tag, slackOf(tag, numbers));
     if (tag.name == "rotate" && numbers[3] != 0 && !hasLengthOne(numbers.data(), 3))
       fault(tag.line,
             "the axis of <rotate> is not of length 1, and assimp would distort the mesh; write the "
             "axis with length 1, with six digits or more");
-    // As a float, an angle of two turns is off by 3e-5 degrees.
     if (tag.name == "rotate" && std::abs(numbers[3]) > 720)
       fault(tag.line, "the angle of <rotate> is rounded to a float; write one from -720 to 720");
-    addTravel(tag, numbers);
+    addToNode(tag, numbers);
   }
 
-  /// Adds a transform to those of its node.
-  void addTravel(const XmlTag& tag, const std::vector<double>& numbers) {
-    Travel& travel = travels_[open_[open_.size() - 2].from];
-    if (tag.name == "matrix" && ++travel.matrices > 1)
-      fault(tag.line, "a <node> has two <matrix>; multiply them, or write two nodes");
-    if (tag.name == "scale")
-      travel.scale *= std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
+  /// Returns what the numbers of a transform may lose. Those of a scale, and those of a matrix that
+  /// turn and scale, multiply coordinates, so that they may lose nothing that counts beside them.
+  static double slackOf(const XmlTag& tag, const std::vector<double>& numbers) {
+    if (tag.name == "scale") return 0;
+    if (tag.name != "matrix") return kMostLostDecimals;
+    double largest = 0;
+    for (const int i : {0, 1, 2, 4, 5, 6, 8, 9, 10})
+      largest = std::max(largest, std::abs(numbers[static_cast<std::size_t>(i)]));
+    return kMostLostDecimals * std::min(1.0, largest);
+  }
+
+  /// Adds a transform to those of its node. assimp multiplies them in floats. In their product,
+  /// lengths may cancel, so they are added up without signs. Scales could cancel, too, so only one
+  /// transform of a node may scale.
+  void addToNode(const XmlTag& tag, const std::vector<double>& numbers) {
+    Product& product = products_[open_[open_.size() - 2].from];
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     if (tag.name == "translate") moved = {numbers[0], numbers[1], numbers[2]};
     if (tag.name == "matrix") moved = {numbers[3], numbers[7], numbers[11]};
-    if (moved.isZero(0)) return;
-    travel.length += travel.scale * moved.norm();
-    if (++travel.translations > 1)
-      report_.travelInNode = std::max(report_.travelInNode, travel.length);
+    product.bound.length += product.scale * (moved.norm() + kLostLength);
+    ++product.count;
+    // A product of two matrices rounds four terms of each entry, with factors of 2^-24.
+    product.bound.rounding += 0x1p-21;
+    if (tag.name == "rotate") {
+      // The angle in radians has three roundings.
+      constexpr double kRadians = 3.15 / 180;
+      product.bound.rounding += 3 * 0x1p-24 * kRadians * std::abs(numbers[3]);
+      if (numbers[3] != 0) product.bound.rounding += 2 * lengthError(numbers.data(), 3);
+    }
+    if (tag.name == "scale" || tag.name == "matrix") {
+      if (product.scales)
+        fault(tag.line,
+              "a <node> has a second <scale> or <matrix>; multiply them, or write two nodes");
+      product.scales = true;
+    }
+    if (tag.name == "scale")
+      product.scale = std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
     if (tag.name == "matrix")
-      travel.scale *=
+      product.scale =
           Eigen::Map<const Eigen::Matrix4d>(numbers.data()).topLeftCorner<3, 3>().norm();
+    if (product.count > 1)  // else the length is that of the node's own translation
+      report_.node.length = std::max(report_.node.length, product.bound.length);
+    report_.node.rounding = std::max(report_.node.rounding, product.bound.rounding);
   }
 
   /// Checks that an <asset> within the document says what the document's own says: assimp reads
@@ -315,23 +340,15 @@ class ColladaCheck : public XmlCheck {
     if (tag.name == "up_axis") up = withoutBlanks(tag.content);
     if (const std::string_view meter = tag.value("meter"); tag.name == "unit")
       unit = meter.empty() ? 1 : numberIn(meter);
-    if (tag.name == "unit" && !isReadRightly(withoutBlanks(tag.find("meter").value_or("1")), unit))
+    if (tag.name == "unit" &&
+        !isReadRightly(withoutBlanks(tag.find("meter").value_or("1")), unit, 0))
       fault(tag.line, "<unit> has a meter" + std::string(kDigits));
-    if (tag.name == "unit") noteUnitName(tag.value("name"), unit);
     hasInnerAsset_ |= depth > 3;
     if (hasInnerAsset_ && (unit != unit_ || up != up_))
       fault(tag.line, "an <asset> within the document has another <" + std::string(tag.name) +
                           "> than the document, which assimp does not apply" + kInstead);
     unit_ = unit;
     up_ = up;
-  }
-
-  /// Notes a unit whose name belongs to another length: the length counts.
-  void noteUnitName(std::string_view name, double metres) {
-    const double length = metresOfUnit(lowered(name));
-    if (length > 0 && std::abs(metres - length) > 1e-3 * length)
-      report_.note("<unit name=\"" + std::string(name) +
-                   "\"> has the meter of another unit, which is used");
   }
 
   void end() override {
@@ -351,12 +368,14 @@ class ColladaCheck : public XmlCheck {
   double unit_ = 1;
   std::string_view up_ = "Y_UP";
   bool hasInnerAsset_ = false;
-  /// The transforms of each node, by the place of its tag.
-  struct Travel {
-    double scale = 1, length = 0;
-    int translations = 0, matrices = 0;
+  /// The transforms of a node.
+  struct Product {
+    int count = 0;
+    double scale = 1;
+    bool scales = false;  ///< one of them is a scale or a matrix
+    ContentReport::NodeBound bound;
   };
-  std::map<std::size_t, Travel> travels_;
+  std::map<std::size_t, Product> products_;  // by the place of the node's tag
   std::set<std::string_view> targets_, urls_, instanced_;
   std::vector<XmlTag> nodes_;
   // The last <mesh>: its sources by their ids, the sizes of its arrays, and its positions.

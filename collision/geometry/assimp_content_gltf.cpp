@@ -362,6 +362,9 @@ class GltfCheck {
       std::vector<double> turn;
       for (const Json& number : member(node, "rotation"))
         if (number.is_number()) turn.push_back(number.get<double>());
+      if (turn.size() == 4)
+        report_.node.rounding =
+            std::max(report_.node.rounding, 0x1p-21 + 2 * lengthError(turn.data(), 4));
       if (turn.size() == 4 && !hasLengthOne(turn.data(), 4))
         fault(
             "the rotation of a node is not of length 1, and assimp would distort the mesh; write a "

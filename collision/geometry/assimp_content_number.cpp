@@ -17,14 +17,12 @@ struct NoNumber {
 
 }  // namespace
 
-bool isReadRightly(std::string_view word, double value) {
-  // Some five roundings to floats have a relative error of 5 * 2^-24. Numbers near the least float
-  // are allowed to be lost, and so are the decimals after the 15th, which assimp drops, unless an
-  // exponent makes them large.
+bool isReadRightly(std::string_view word, double value, double slack) {
+  // An exponent may make lost decimals large. Numbers near the least float are allowed to be lost.
   const auto exponent = word.find_first_of("eE");
   const bool grows =
       exponent != word.npos && exponent + 1 < word.size() && word[exponent + 1] != '-';
-  const double slack = 1e-6 * std::abs(value) + (grows ? 1e-30 : kMostLostDecimals);
+  slack = kNumberRounding * std::abs(value) + (grows ? 0 : slack) + 1e-30;
   const std::string text(word);
   ai_real read = 0;
   try {

@@ -212,18 +212,19 @@ std::optional<XmlTag> XmlCheck::next() {
         std::count(text_.begin() + std::exchange(counted_, at), text_.begin() + at, '\n'));
     const std::string_view rest = text_.substr(at);
     if (rest.starts_with("<!--")) {
+      at_ = at + 4;
       skipTo("-->");
     } else if (rest.starts_with("<![CDATA[")) {
       skipTo("]]>");
     } else if (rest.starts_with("<?")) {
       skipTo("?>");
     } else if (rest.starts_with("<!")) {
-      skipTo(">");
-      // A quoted name may have a > in it, behind which declarations may follow.
-      const std::string_view declaration = text_.substr(at, std::min(at_, text_.size()) - at);
-      if (!declaration.starts_with("<!DOCTYPE") || declaration.find('[') != declaration.npos ||
-          std::count(declaration.begin(), declaration.end(), '"') % 2 != 0 ||
-          std::count(declaration.begin(), declaration.end(), '\'') % 2 != 0)
+      // It ends at the first > that is not in quotes. pugixml takes comments and the like within
+      // it.
+      at_ = xmlTagAt(text_, at).to;
+      const std::string_view declaration = text_.substr(at + 1, at_ - at - 1);
+      if (!declaration.starts_with("!DOCTYPE") ||
+          declaration.find_first_of("[<") != declaration.npos)
         fault(line_, "a DOCTYPE with declarations is not read; save the file without it");
     } else {
       XmlTag tag = xmlTagAt(text_, at);

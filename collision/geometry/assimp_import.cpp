@@ -51,16 +51,19 @@ Eigen::Affine3d inDoubles(const aiMatrix4x4& m) {
   return map;
 }
 
-/// Lengths along the path from the root to a node, without signs: `scale` bounds by how much the
-/// path's maps stretch, `length` the sum of its translations, in the units of the file.
+/// Bounds along the path from the root to a node: `scale` of how much its maps stretch, `length` of
+/// the sum of its translations without signs, in the units of the file, `rounding` of the relative
+/// error of the numbers and of the products of transforms.
 struct Path {
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
-  double scale = 1, length = 0;
+  double scale = 1, length = 0, rounding = 2 * kNumberRounding;
 
-  Path below(const aiNode& node, double travelInNode) const {
+  Path below(const aiNode& node, const ContentReport& report) const {
     const Eigen::Affine3d step = inDoubles(node.mTransformation);
+    const double own = step.translation().norm() + (report.isText ? kLostLength : 0);
     return {map * step, scale * step.linear().jacobiSvd().singularValues()[0],
-            length + scale * std::max(step.translation().norm(), travelInNode)};
+            length + scale * std::max(own, report.node.length),
+            rounding + std::max(kNumberRounding, report.node.rounding)};
   }
 };
 
@@ -72,8 +75,8 @@ struct Rounding {
 
 class SceneReader {
  public:
-  SceneReader(const aiScene& scene, double travelInNode, AssimpImport& import)
-      : scene_(scene), travelInNode_(travelInNode), import_(import) {}
+  SceneReader(const aiScene& scene, const ContentReport& report, AssimpImport& import)
+      : scene_(scene), report_(report), import_(import) {}
 
   void read() { addNode(*scene_.mRootNode, {}); }
   bool hasLines() const { return hasLines_; }
@@ -81,7 +84,7 @@ class SceneReader {
 
  private:
   void addNode(const aiNode& node, const Path& parent) {
-    const Path path = parent.below(node, travelInNode_);
+    const Path path = parent.below(node, report_);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene_.mMeshes[node.mMeshes[i]], path);
     for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(*node.mChildren[i], path);
   }
@@ -120,19 +123,19 @@ class SceneReader {
     if (!box.isEmpty()) judge(path, farthest, box.diagonal().norm());
   }
 
-  /// Bounds the rounding of a mesh. A number of the file becomes a float (2^-24 of it), and assimp
-  /// multiplies the transforms of a node in floats: some four roundings for each of the lengths
-  /// that are added up. @param extent the size of the mesh
+  /// Bounds the rounding of a mesh: each length on the way from the root to a vertex goes through
+  /// all the roundings on this way, at most. @param extent the size of the mesh
   void judge(const Path& path, double farthest, double extent) {
     const double sum = path.scale * farthest + path.length;
-    if (sum == 0) return;  // all vertices are the origin
-    const double error = 0x1p-22 * sum + 4 * kMostLostDecimals * std::max(1.0, path.scale);
-    const double share = extent > 0 ? error / extent : HUGE_VAL;
-    if (!(share <= rounding_.share)) rounding_ = {error, share};
+    const double lost = report_.isText ? 2 * kMostLostDecimals : 0;
+    const double error = path.rounding * sum + lost * path.scale;
+    if (error == 0) return;  // all vertices are the origin
+    const double share = extent > 0 && error <= HUGE_VAL ? error / extent : HUGE_VAL;
+    if (share > rounding_.share) rounding_ = {error, share};
   }
 
   const aiScene& scene_;
-  const double travelInNode_;
+  const ContentReport& report_;
   AssimpImport& import_;
   bool hasLines_ = false;
   Rounding rounding_;
@@ -315,7 +318,7 @@ void read(const std::string& file, AssimpRules rules, AssimpImport& result, Cont
     own.reset(importer.GetOrphanedScene());
     result.fileUnit = takeFileUnit(*own, result.format) + report.fileUnit;  // one of them is 0
   }
-  SceneReader reader(own ? *own : *scene, report.travelInNode, result);
+  SceneReader reader(own ? *own : *scene, report, result);
   reader.read();
   if (reader.hasLines()) report.note(kNoteOnLines);
   if (const Rounding& rounding = reader.rounding(); !(rounding.share <= 1e-2))

@@ -20,6 +20,7 @@ struct Head {
 };
 
 using Indices = std::array<std::uint32_t, 3>;
+static_assert(sizeof(PolygonFan) == 16 && std::is_trivially_copyable_v<PolygonFan>);
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Indices) == 12);
 
 template <class T>
@@ -120,6 +121,11 @@ bool unpack(std::string_view bytes, AssimpImport& import) {
     end = std::uint64_t{fan.firstTriangle} + fan.triangles;
   }
   if (end > head.triangles) return false;
+  for (const PolygonFan& fan : import.polygons)
+    for (std::uint32_t k = fan.firstTriangle + 1; k < fan.firstTriangle + fan.triangles; ++k) {
+      const Indices &before = import.mesh.triangles[k - 1], &triangle = import.mesh.triangles[k];
+      if (triangle[0] != before[0] || triangle[1] != before[2]) return false;
+    }
   if (!takeFaults(bytes, head.faults, import.faults) ||
       !takeTexts(bytes, head.notes, import.notes) ||
       !takeTexts(bytes, head.otherFiles, import.otherFiles) || !takeText(bytes, import.format) ||

@@ -4,6 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "collision/core/spelling.h"
+#include "collision/geometry/column_names.h"
+#include "collision/geometry/stated_unit.h"
+
 namespace corridor {
 namespace {
 
@@ -49,20 +53,26 @@ std::optional<std::string_view> attributeOf(std::string_view tag, const std::str
 
 }  // namespace
 
-char checkColladaAsset(std::string_view text, MeshFaults& faults) {
+char checkColladaAsset(std::string_view text, MeshFaults& faults, std::vector<std::string>& notes) {
   std::string file(text);
   blank(file, "<!--", "-->");
   blank(file, "<![CDATA[", "]]>");
   const std::string_view asset = std::string_view(file).substr(0, file.find("</asset>"));
   if (const auto at = asset.find("<unit"); at != asset.npos) {
-    const auto meter = attributeOf(asset.substr(at, asset.find('>', at) - at), "meter");
-    double metres = 0;
+    const std::string_view tag = asset.substr(at, asset.find('>', at) - at);
+    const auto meter = attributeOf(tag, "meter");
+    double metres = meter ? 0 : 1;
     if (meter && (parseCoordinate(trimmed(*meter), metres) || !(metres > 0)))
       faults.add(lineOf(asset, at), "<unit meter=" + inQuotes(*meter) +
                                         ">: the unit must be a number of metres above 0");
     else if (meter && !meter->empty() && isSpace(meter->front()))
       faults.add(lineOf(asset, at), "<unit meter=" + inQuotes(*meter) +
                                         ">: assimp reads no number after a blank; remove it");
+    const std::string name(attributeOf(tag, "name").value_or(""));
+    const double named = metresOfUnit(lowered(name));
+    if (named > 0 && !isSameUnit(named, metres))
+      notes.push_back("<unit name=" + inQuotes(name) +
+                      "> has the meter of another unit, which is used");
   }
   char up = 'y';
   if (const auto at = asset.find("<up_axis"); at != asset.npos) {

@@ -184,33 +184,36 @@ class EarCutter {
 /// rounding turns Newell's normal.)
 struct FilePolygon {
   std::vector<Index> vertices;
-  std::vector<Vec3> corners;  ///< divided by `size`
-  double size = 0;            ///< the largest absolute coordinate
-  double extent = 0;          ///< the largest distance from the first corner, divided by `size`
+  double extent = 0;          ///< the largest distance from the first corner, in units of the file
+  std::vector<Vec3> corners;  ///< from the first one, divided by `extent`
   Vec3 normal = Vec3::Zero();
-  double deviation = 0;  ///< the largest distance of a corner from the plane, divided by `size`
-  double width = 0;      ///< of a strip around all corners, divided by `size`; an upper bound
+  double deviation = 0;  ///< the largest distance of a corner from the plane, divided by `extent`
+  double width = 0;      ///< of a strip around all corners, divided by `extent`; an upper bound
 
   FilePolygon(const TriangleMesh& mesh, const PolygonFan& fan) {
     const Indices3* const triangles = mesh.triangles.data() + fan.firstTriangle;
     vertices.reserve(fan.triangles + 2);
     vertices = {triangles[0][0], triangles[0][1]};
     for (Index k = 0; k < fan.triangles; ++k) vertices.push_back(triangles[k][2]);
-    for (const Index v : vertices) size = std::max(size, mesh.vertices[v].cwiseAbs().maxCoeff());
-    if (size == 0) size = 1;
     corners.reserve(vertices.size());
-    Vec3 mean = Vec3::Zero();
+    double quarter = 0;  // quarters, so that differences do not overflow
     for (const Index v : vertices) {
-      corners.emplace_back(mesh.vertices[v] / size);
-      mean += corners.back() / static_cast<double>(vertices.size());
+      corners.emplace_back(mesh.vertices[v] / 4 - mesh.vertices[vertices[0]] / 4);
+      quarter = std::max(quarter, corners.back().stableNorm());
+    }
+    extent = 4 * quarter;
+    if (quarter == 0) return;  // all corners are equal
+    Vec3 mean = Vec3::Zero();
+    for (Vec3& corner : corners) {
+      corner /= quarter;
+      mean += corner / static_cast<double>(vertices.size());
     }
     Vec3 newell = Vec3::Zero();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t i = 0; i < corners.size(); ++i)
       newell += (corners[i] - mean).cross(corners[(i + 1) % corners.size()] - mean);
-      extent = std::max(extent, (corners[i] - corners[0]).norm());
-    }
-    const Vec3 widest = widestTriangle();
-    if (extent > 0) width = 2 * widest.norm() / extent;
+    Vec3 widest = widestTriangle();
+    width = 2 * widest.norm();
+    if (widest.dot(newell) < 0) widest = -widest;
     const double byNewell = deviationFrom(newell, mean), byWidest = deviationFrom(widest, mean);
     const bool isNewell = byNewell <= byWidest && !newell.isZero(0);
     normal = isNewell ? newell : widest;
@@ -244,9 +247,9 @@ struct FilePolygon {
   Vec3 widestTriangle() const {
     Vec3 side = Vec3::Zero(), widest = Vec3::Zero();
     for (const Vec3& p : corners)
-      if (const Vec3 other = p - corners[0]; other.squaredNorm() > side.squaredNorm()) side = other;
+      if (p.squaredNorm() > side.squaredNorm()) side = p;
     for (const Vec3& p : corners)
-      if (const Vec3 other = side.cross(p - corners[0]); other.squaredNorm() > widest.squaredNorm())
+      if (const Vec3 other = side.cross(p); other.squaredNorm() > widest.squaredNorm())
         widest = other;
     return widest;
   }
@@ -318,10 +321,10 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
   for (const PolygonFan& fan : fans) {
     const FilePolygon polygon(mesh, fan);
     const Vec3& corner = mesh.vertices[polygon.vertices[0]];
-    if (polygon.deviation > kFlat * polygon.extent) {
+    if (polygon.deviation > kFlat) {
       ++bent.count;
-      if (polygon.deviation * polygon.size > largest) {
-        largest = polygon.deviation * polygon.size;
+      if (polygon.deviation * polygon.extent > largest) {
+        largest = polygon.deviation * polygon.extent;
         bent.first = placeOf(fan, corner);
       }
     }
@@ -334,8 +337,7 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
                                 " is the first that is not cut); save the mesh as triangles");
     std::vector<Indices3> triangles = trianglesOfPolygon(front);
     if (triangles.empty()) triangles = trianglesOfPolygon(polygon.projected(mesh, false));
-    if (triangles.empty() &&
-        (polygon.width <= kThin * polygon.extent || polygon.deviation > kBent * polygon.extent)) {
+    if (triangles.empty() && (polygon.width <= kThin || polygon.deviation > kBent)) {
       if (crossing.count++ == 0) crossing.first = placeOf(fan, corner);
       continue;  // stays a fan
     }
@@ -350,10 +352,9 @@ void cutPolygons(TriangleMesh& mesh, std::span<const PolygonFan> fans, MeshFault
   faults.throwIfAny();
   if (bent.count > 0)
     notes.push_back(
-        bent.text() +
-        (bent.count == 1 ? " is not flat: its surface" : " are not flat: their surface") +
-        " is that of the triangles into which it is cut; the largest deviation from a "
-        "plane is " +
+        bent.text() + (bent.count == 1 ? " is" : " are") +
+        " not flat, so the triangles into which a polygon is cut determine its surface; "
+        "the largest deviation from a plane is " +
         withDigits(largest, 3) + " units of the file, at " + bent.first);
   if (crossing.count > 0)
     notes.push_back(crossing.text() + " that " +

@@ -100,9 +100,10 @@ constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
 /// and up-axis, and the lines of OBJ. @throws InputError if a check fails.
 /// @returns Collada's up-axis; nullopt for other formats.
 std::optional<char> requireForAssimp(const std::filesystem::path& file,
-                                     const std::string& extension, MeshFaults& faults) {
+                                     const std::string& extension, MeshFaults& faults,
+                                     std::vector<std::string>& notes) {
   if (extension == ".dae")
-    return checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults);
+    return checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults, notes);
   if (extension == ".obj") checkObjForAssimp(readFile(file, kWhat, kMostAssimpBytes), faults);
   requireFile(file, kWhat, kMostAssimpBytes);
   return std::nullopt;
@@ -120,16 +121,16 @@ TriangleMesh cutAndWelded(AssimpImport& import, MeshFaults& faults) {
 StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
                        bool unitGiven, MeshFaults& faults) {
   if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
-  const std::optional<char> up = requireForAssimp(file, extension, faults);
+  StoredMesh stored;
+  const std::optional<char> up = requireForAssimp(file, extension, faults, stored.file.notes);
   AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
   if (!unitGiven && extension == ".3mf")
     faults.fail(0, "the file has a unit, " + shortest(import.fileUnit) +
                        " m, which is not applied; state the unit" + howToState(import.fileUnit));
-  StoredMesh stored;
   stored.file.mesh = cutAndWelded(import, faults);
   stored.file.format = std::move(import.format);
   stored.file.floatVertices = true;
-  stored.file.notes = std::move(import.notes);
+  for (std::string& note : import.notes) stored.file.notes.push_back(std::move(note));
   stored.file.otherFiles = std::move(import.otherFiles);
   stored.fileUnit = import.fileUnit;
   stored.file.isCollada = up.has_value();
@@ -223,7 +224,8 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension) &&
       extension != kOmplAppFormat)
     faults.fail(0, notRead(extension));
-  requireForAssimp(file, extension, faults);
+  OmplAppMesh result;
+  requireForAssimp(file, extension, faults, result.notes);
   const Reader own = ownReader(extension);
   MeshFile read;
   if (own) read = readOwn(file, own, faults).file;
@@ -234,7 +236,6 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
                        std::to_string(import.mesh.triangles.size()) + " triangles of the file's " +
                        std::to_string(read.mesh.triangles.size()) +
                        "; save it again as triangles, without comments among them");
-  OmplAppMesh result;
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
   result.vertexAverage /= result.importedVertices;
@@ -242,12 +243,10 @@ OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   if (own) {
     result.mesh = std::move(read.mesh);
   } else {
-    if (import.isCollada) {
-      import = readWithAssimp(file.string(), AssimpRules::OmplAppPolygons);
-    }
+    import = readWithAssimp(file.string(), AssimpRules::OmplAppPolygons);
     result.mesh = cutAndWelded(import, faults);
   }
-  result.notes = std::move(import.notes);
+  for (std::string& note : import.notes) result.notes.push_back(std::move(note));
   for (std::string& note : read.notes) result.notes.push_back(std::move(note));
   result.otherFiles = std::move(import.otherFiles);
   return result;

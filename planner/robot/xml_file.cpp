@@ -157,9 +157,10 @@ namespace {
 /// Returns whether a declaration "DOCTYPE robot …" may set attributes or entities. TinyXML-2 ends
 /// it at the first >, also within a quoted name, behind which declarations may follow.
 bool mayDeclare(std::string_view text) {
-  return !text.starts_with("DOCTYPE") || text.find('[') != text.npos ||
-         std::count(text.begin(), text.end(), '"') % 2 != 0 ||
-         std::count(text.begin(), text.end(), '\'') % 2 != 0;
+  char quote = 0;
+  for (const char c : text)
+    if (quote ? c == quote : c == '"' || c == '\'') quote = quote ? '\0' : c;
+  return quote || !text.starts_with("DOCTYPE") || text.find_first_of("[<") != text.npos;
 }
 
 }  // namespace

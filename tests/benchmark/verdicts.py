@@ -1,4 +1,5 @@
-"""The rules by which PAPER.md says that a claim of the paper holds: written before the figures are measured.
+"""The rules by which PAPER.md says that a claim of the paper holds. They were written when some of the figures were
+known; none was moved to let a claim hold.
 
 Times of one run differ by up to 15 % from those of the next (`NOISE`), so no time decides a claim whose bound is nearer
 than that. `tests/repository/verdicts_test.py` gives each rule figures for which it must fail.
@@ -6,7 +7,7 @@ than that. `tests/repository/verdicts_test.py` gives each rule figures for which
 import math
 
 NOISE = 0.15
-HOLDS, LESS, OPEN, DEPENDS, FAILS = ("holds", "holds, by less", "not decided: within the noise of its bound", "depends",
+HOLDS, LESS, OPEN, DEPENDS, FAILS = ("holds", "faster, by less than claimed", "not decided: within the noise of its bound", "depends",
                                      "does not hold here")
 
 
@@ -22,7 +23,11 @@ def at_least(ratio, bound):
 def all_at_least(ratios, bound):
     """Ratios of several workloads against the least ratio of the claim."""
     found = {at_least(ratio, bound) for ratio in ratios}
-    return found.pop() if len(found) == 1 else DEPENDS
+    if len(found) == 1:
+        return found.pop()
+    if found == {HOLDS, OPEN}:
+        return OPEN
+    return DEPENDS if max(ratios) > 1 + NOISE else FAILS
 
 
 def below(least, mean, most, bound):
@@ -31,9 +36,9 @@ def below(least, mean, most, bound):
 
 
 def model(ratios):
-    """Predicted times over measured ones, from costs that were measured on other poses."""
+    """Predicted times over measured ones. 0.8 to 1.25 is right up to the noise; *depends* needs half of them right."""
     good = [0.8 <= ratio <= 1.25 for ratio in ratios]
-    return HOLDS if all(good) else DEPENDS if any(good) else FAILS
+    return HOLDS if all(good) else DEPENDS if 2 * sum(good) >= len(good) else FAILS
 
 
 def flatter(slope, others):
@@ -51,23 +56,24 @@ def exponent(points):
 
 
 def n_log_n(points):
-    """Times over n. The exponent of n·log n over the same n is the bound; caches add up to 0.1 to it."""
-    bound = exponent([(n, n * math.log(n)) for n, _ in points])
+    """Times over n, against the exponents of n·log n and n·log² n over the same n: nearer to the first holds."""
+    first, second = (exponent([(n, n * math.log(n) ** power) for n, _ in points]) for power in (1, 2))
     found = exponent(points)
-    return HOLDS if found <= bound + 0.1 else OPEN if found <= bound + 0.2 else FAILS
+    return HOLDS if found <= (first + second) / 2 else OPEN if found <= second + 0.1 else FAILS
 
 
 def log_factor(points, others):
     """Whether times grow by a factor log n more than others over the same n."""
     found = exponent(points) - exponent(others)
     wanted = exponent([(n, math.log(n)) for n, _ in points])
-    if found <= 0:
+    if found < 0.5 * wanted:
         return f"not seen up to n = {max(n for n, _ in points):,.0f}"
-    return HOLDS if 0.5 * wanted <= found <= 1.5 * wanted else FAILS
+    return HOLDS if found <= 1.5 * wanted else FAILS
 
 
 def misleads(volume, tests):
-    """How much larger boxes of one fit are than those of another, and how many more tests queries take with them."""
-    if volume >= 1.25 and tests >= 1.25:
+    """How much larger boxes of one fit are than those of another, and how many more tests queries take with them, by
+    the kind of tree."""
+    if volume >= 1.25 and min(tests) >= 1.25:
         return HOLDS
-    return DEPENDS if volume >= 1.25 or tests >= 1.25 else FAILS
+    return DEPENDS if volume >= 1.25 or max(tests) >= 1.25 else FAILS

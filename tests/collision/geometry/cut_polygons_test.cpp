@@ -251,15 +251,30 @@ TEST_F(PolygonFiles, CrossingPolygonsFarFromTheOrigin) {
               HasSubstr("crosses or overlaps itself"));
 }
 
+/// A polygon that is tiny beside its distance from the origin is judged by its own size.
+TEST_F(PolygonFiles, TinyPolygonsFarFromTheOrigin) {
+  const std::string wall[] = {"0 1 0",     "1e-80 1 0", "1e-80 1 2e-80", "2e-80 1 2e-80",
+                              "2e-80 1 0", "4e-80 1 0", "4e-80 1 3e-80", "0 1 3e-80"};
+  std::string obj;
+  for (const std::string& p : wall) obj += "v " + p + '\n';
+  TriangleMesh mesh = read("a.obj", obj + "f 1 2 3 4 5 6 7 8\n").mesh;
+  for (Vec3& p : mesh.vertices) p = {p.x() * 1e80, p.z() * 1e80, 0};
+  EXPECT_EQ(covering(mesh, {1.5, 0.9}), 0);
+  for (const Vec2& inside : {Vec2(0.4, 1), Vec2(3, 1.1), Vec2(1.5, 2.6)})
+    EXPECT_EQ(covering(mesh, inside), 1);
+}
+
 /// Corners that are not in a plane determine no surface, so a note says so.
 TEST_F(PolygonFiles, PolygonsThatAreNotFlat) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 ", face = "\nv 0 1 0\nf 1 2 3 4\n";
   EXPECT_THAT(read("a.obj", square + "0.000001" + face).notes, IsEmpty());
-  EXPECT_THAT(
-      read("a.obj", square + "0.4" + face + "f 4 3 2 1\n").notes,
-      ElementsAre(
-          "2 polygons are not flat: their surface is that of the triangles into which it is cut; "
-          "the largest deviation from a plane is 0.0962 units of the file, at line 5"));
+  const std::string flat = "v 0 0 7\nv 1 0 7\nv 1 1 7\nv 0 1 7\nf 5 6 7 8\n";
+  EXPECT_THAT(read("a.obj", square + "0.4" + face + flat).notes,
+              ElementsAre("1 polygon is not flat, so the triangles into which a polygon is cut "
+                          "determine its surface; the largest deviation from a plane is 0.0962 "
+                          "units of the file, at line 5"));
+  EXPECT_THAT(read("a.obj", square + "0.4" + face + "f 4 3 2 1\n").notes,
+              ElementsAre(StartsWith("2 polygons are not flat, so")));
 }
 
 /// Polygons for which no surface is right, or whose area is nothing, stay fans.

@@ -37,6 +37,8 @@ TEST_F(UrdfFaults, Files) {
   EXPECT_EQ(complaintOf("<!DOCTYPE robot SYSTEM \"a>b\" [<!ATTLIST origin xyz CDATA \"1 0 0\">]>\n"
                         "<robot/>"),
             "r.urdf:1: a DOCTYPE with declarations is not read; save the file without it");
+  EXPECT_EQ(complaintOf("<!DOCTYPE robot PUBLIC \"it's\" 'x><robot/><!--'><robot/><!-- -->"),
+            "r.urdf:1: a DOCTYPE with declarations is not read; save the file without it");
   EXPECT_EQ(complaintOf("<!-- nothing -->"),
             "r.urdf: <robot> is missing; a robot (URDF) is needed");
   EXPECT_EQ(complaintOf("<?xml version=\"1.0\"?>\n<mujoco/>"),
