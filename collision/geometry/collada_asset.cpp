@@ -72,7 +72,8 @@ char checkColladaAsset(std::string_view text, MeshFaults& faults, std::vector<st
     const double named = metresOfUnit(lowered(name));
     if (named > 0 && !isSameUnit(named, metres))
       notes.push_back("<unit name=" + inQuotes(name) +
-                      "> has the meter of another unit, which is used");
+                      (meter ? "> has the meter of another unit, which is used"
+                             : "> has no meter, so a unit of 1 m is used"));
   }
   char up = 'y';
   if (const auto at = asset.find("<up_axis"); at != asset.npos) {
