@@ -113,6 +113,10 @@ TEST_F(MeshContent, ColladaUnitsOfOtherNames) {
   };
   EXPECT_THAT(notesOf("a.dae", unit("centimeter", "0.01")), IsEmpty());
   EXPECT_THAT(notesOf("a.dae", unit("mesh unit", "0.5")), IsEmpty());
+  std::string none = unit("mm", "1");
+  none.erase(none.find(" meter="), 10);
+  EXPECT_THAT(notesOf("a.dae", none),
+              ElementsAre("<unit name=\"mm\"> has no meter, so a unit of 1 m is used"));
   EXPECT_THAT(
       notesOf("a.dae", unit("centimeter", "1")),
       ElementsAre("<unit name=\"centimeter\"> has the meter of another unit, which is used"));
