@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "collision/core/swept_sphere.h"
 #include "collision/hierarchy/box_tree.h"
 #include "collision/motion/certify_motion.h"
 #include "collision/motion/interval_motions.h"
@@ -12,10 +13,16 @@
 
 namespace corridor {
 
-/// Finds the pairs of bodies that may come close to each other, without a test of each pair. If a
-/// moving body has many partners at rest in the world, a tree of the partners' boxes gives the
-/// partners that the swept sphere of this body may reach. Successive moving bodies with the same
-/// partners share one tree. Pairs that no tree covers are reported without a test.
+/// Finds the pairs of bodies that may come close to each other, without a test of each pair.
+/// * If a moving body has many partners at rest in the world, a tree of the partners' boxes gives
+///   the partners that the swept sphere of this body may reach. Successive moving bodies with the
+///   same partners share one tree.
+/// * If there are many pairs of two moving bodies, the extents of all swept spheres along one axis
+///   are sorted, and only pairs whose extents overlap are tested: sweep and prune (D. Baraff,
+///   Dynamic simulation of non-penetrating rigid bodies, 1992). The sort begins anew in each query,
+///   because the states of a planner do not follow each other in small steps.
+///
+/// All other pairs are reported without a test.
 ///
 /// The object does not change after construction, so threads may share it.
 class BroadPhase {
@@ -42,6 +49,12 @@ class BroadPhase {
       for (std::size_t k = run.begin; k < run.end; ++k)
         if (visit(k)) return;
     }
+    if (movers_.empty()) return;
+    std::vector<SweptSphere> spheres;
+    spheres.reserve(movers_.size());
+    for (const MotionPair& mover : movers_) spheres.push_back(sphereOf(mover));
+    for (const std::uint32_t k : overlappingMovers(spheres, within))
+      if (visit(k)) return;
   }
 
   /// Writes to `found`, in ascending order, the numbers of all pairs that may come closer than
@@ -53,6 +66,18 @@ class BroadPhase {
   std::size_t bodies() const { return bodies_; }
 
  private:
+  /// Fills `movers_` and `partners_`.
+  void addMovers();
+  /// Returns the numbers of the pairs of moving bodies that may come closer than `within`, in
+  /// ascending order. @param spheres the swept spheres of `movers_`.
+  std::vector<std::uint32_t> overlappingMovers(std::span<const SweptSphere> spheres,
+                                               double within) const;
+
+  /// A moving body that has a pair with another one.
+  struct Partner {
+    std::uint32_t mover = 0, pair = 0;
+  };
+
   /// The adjacent pairs [begin, end). If there is a tree, all of them have the same body b, and
   /// item i of the tree is the box of body a of pair begin + i.
   struct Run {
@@ -64,6 +89,11 @@ class BroadPhase {
   std::vector<Run> runs_;
   std::size_t bodies_ = 0;
   bool hasTrees_ = false;
+  // The bodies of all pairs of two moving bodies, each as body b of a pair; empty if these pairs
+  // are few, so that runs cover them. `partners_[i]` are the partners of mover i with numbers above
+  // i, in ascending order.
+  std::vector<MotionPair> movers_;
+  std::vector<std::vector<Partner>> partners_;
 };
 
 }  // namespace corridor
