@@ -19,8 +19,11 @@ class DobkinKirkpatrickBuilder {
     to_.faces_.reserve(6 * n);
     anyFace_.resize(n);
     degree_.assign(n, 0);
+    blockedAt_.assign(n, 0);
     for (const Polytope::Face& face : to_.polytope_.faces()) newFace(face, kNone, 0);
-    connect();
+    across_ = facesAcross(to_.polytope_.faces(), n);
+    for (const Polytope::Face& face : to_.polytope_.faces())
+      for (const std::uint32_t v : face) ++degree_[v];
     alive_.resize(n);
     for (std::uint32_t v = 0; v < n; ++v) alive_[v] = v;
     to_.vertexCounts_.push_back(n);
@@ -38,29 +41,6 @@ class DobkinKirkpatrickBuilder {
     return f;
   }
 
-  /// Finds the face across each edge of each face of the given polytope (P_0), and the degree of
-  /// each vertex.
-  void connect() {
-    struct Half {
-      std::uint32_t low, high, face;
-      int edge;
-    };
-    std::vector<Half> halves;
-    for (std::uint32_t f = 0; f < to_.faces_.size(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = to_.faces_[f].corner[k], b = to_.faces_[f].corner[(k + 1) % 3];
-        ++degree_[a];
-        halves.push_back({std::min(a, b), std::max(a, b), f, k});
-      }
-    std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-      return std::pair(x.low, x.high) < std::pair(y.low, y.high);
-    });
-    for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
-      across_[halves[i].face][halves[i].edge] = halves[i + 1].face;
-      across_[halves[i + 1].face][halves[i + 1].edge] = halves[i].face;
-    }
-  }
-
   int cornerOf(std::uint32_t f, std::uint32_t v) const {
     const Polytope::Face& corner = to_.faces_[f].corner;
     return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
@@ -73,18 +53,16 @@ class DobkinKirkpatrickBuilder {
     if (level >= std::numeric_limits<std::uint16_t>::max())
       throw std::logic_error("the hierarchy of a polytope has too many levels");
     std::size_t left = alive_.size();
-    blocked_.assign(points_.size(), false);
-    gone_.assign(points_.size(), false);
     // A removal changes only the degrees of vertices that it blocks.
     for (int degree = 3; degree <= DobkinKirkpatrick::kMostNeighbours; ++degree)
       for (const std::uint32_t v : alive_) {
-        if (blocked_[v] || gone_[v] || degree_[v] != degree || left == 4) continue;
+        if (blockedAt_[v] == level || to_.rings_[v].removed || degree_[v] != degree || left == 4)
+          continue;
         if (!remove(v, level, left)) continue;
-        gone_[v] = true;
         --left;
-        for (const std::uint32_t w : ring_) blocked_[w] = true;
+        for (const std::uint32_t w : ring_) blockedAt_[w] = level;
       }
-    std::erase_if(alive_, [&](std::uint32_t v) { return gone_[v]; });
+    std::erase_if(alive_, [&](std::uint32_t v) { return to_.rings_[v].removed > 0; });
     to_.vertexCounts_.push_back(alive_.size());
   }
 
@@ -192,7 +170,7 @@ class DobkinKirkpatrickBuilder {
   std::vector<std::uint32_t> anyFace_;  ///< one face of each vertex
   std::vector<int> degree_;
   std::vector<std::uint32_t> alive_;
-  std::vector<bool> blocked_, gone_;
+  std::vector<std::size_t> blockedAt_;  ///< the last level at which a neighbour was removed, or 0
   std::vector<std::uint32_t> ring_, star_, outer_;
   /// An edge of a hole, from `vertex` to the vertex of the next side; `outer` is the face beyond
   /// the edge.

@@ -178,6 +178,34 @@ std::optional<std::string> Polytope::check() const {
   return checkConvexBoundary(vertices_, faces_);
 }
 
+std::vector<Face> facesAcross(std::span<const Face> faces, std::size_t vertices) {
+  // The edges are sorted by their higher, then by their lower vertex; the second sort keeps the
+  // order of the first. Then the two faces at each edge are neighbours in the order.
+  struct Edge {
+    std::uint32_t low, high, face, corner;
+  };
+  std::vector<Edge> edges, sorted;
+  for (std::uint32_t f = 0; f < faces.size(); ++f)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
+      edges.push_back({low, high, f, k});
+    }
+  sorted.resize(edges.size());
+  for (const auto key : {&Edge::high, &Edge::low}) {
+    std::vector<std::size_t> start(vertices + 1, 0);
+    for (const Edge& edge : edges) ++start[edge.*key + 1];
+    for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
+    for (const Edge& edge : edges) sorted[start[edge.*key]++] = edge;
+    edges.swap(sorted);
+  }
+  std::vector<Face> across(faces.size());
+  for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
+    across[edges[i].face][edges[i].corner] = edges[i + 1].face;
+    across[edges[i + 1].face][edges[i + 1].corner] = edges[i].face;
+  }
+  return across;
+}
+
 std::optional<std::string> checkConvexBoundary(std::span<const Vec3> points,
                                                std::span<const Face> faces) {
   const Rings rings(points.size(), faces);

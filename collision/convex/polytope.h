@@ -73,6 +73,12 @@ class Polytope {
   double reachSquared_ = 0;
 };
 
+/// Returns for each face of a closed boundary the three faces beyond its edges. Entry k belongs to
+/// the edge from corner k to corner k + 1. O(n), by counting sort.
+/// @param vertices  one more than the largest index of a vertex.
+std::vector<Polytope::Face> facesAcross(std::span<const Polytope::Face> faces,
+                                        std::size_t vertices);
+
 /// Checks that faces are the boundary of a convex polytope: that the boundary is closed and has the
 /// Euler characteristic of a sphere, that it is convex at each edge and at each vertex (and
 /// therefore as a whole), that each vertex of a face is an extreme point, and that no face is

@@ -10,37 +10,6 @@
 #include "collision/predicates/orientation.h"
 
 namespace corridor {
-namespace {
-
-/// An edge of a triangle, from `corner` to the next corner. `low` and `high` are its two vertices,
-/// the lower index first.
-struct Half {
-  std::uint32_t low, high, triangle;
-  int corner;
-};
-
-/// Returns for each triangle the three triangles beyond its edges; entry k belongs to the edge from
-/// corner k to corner k + 1.
-std::vector<std::array<std::uint32_t, 3>> trianglesAcross(std::span<const Polytope::Face> faces) {
-  std::vector<Half> halves;
-  halves.reserve(3 * faces.size());
-  for (std::uint32_t f = 0; f < faces.size(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = faces[f][k], b = faces[f][(k + 1) % 3];
-      halves.push_back({std::min(a, b), std::max(a, b), f, k});
-    }
-  std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-    return x.low != y.low ? x.low < y.low : x.high < y.high;
-  });
-  std::vector<std::array<std::uint32_t, 3>> across(faces.size());
-  for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
-    across[halves[i].triangle][halves[i].corner] = halves[i + 1].triangle;
-    across[halves[i + 1].triangle][halves[i + 1].corner] = halves[i].triangle;
-  }
-  return across;
-}
-
-}  // namespace
 
 OuterHierarchy::OuterHierarchy(const DobkinKirkpatrick& inner) : inner_(&inner) {
   findFaces();
@@ -70,7 +39,7 @@ OuterHierarchy::OuterHierarchy(const DobkinKirkpatrick& inner) : inner_(&inner) 
 void OuterHierarchy::findFaces() {
   const std::span<const Polytope::Face> triangles = inner_->polytope().faces();
   const std::span<const Vec3> points = inner_->polytope().vertices();
-  const auto across = trianglesAcross(triangles);
+  const auto across = facesAcross(triangles, points.size());
   std::vector<bool> taken(triangles.size(), false);
   // Returns whether edge k of triangle t is inside a face, which means that the triangles on both
   // sides of the edge are coplanar.
