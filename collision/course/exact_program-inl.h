@@ -114,21 +114,22 @@ Determinant determinant(const std::array<Point<double, M>, M>& columns) {
 /// Returns the weights w with Σ w_j normal_j = goal, if they are proved to be above 0. Otherwise
 /// returns nothing.
 ///
-/// By Cramer's rule the signs are those of determinants of up to five rows. Each term of a
-/// determinant has at most 4 roundings of products and 10 of sums. So 16u of the sum of the terms'
-/// magnitudes covers these roundings, and the rounding of that sum. Entries are 0 or within 2^±60,
-/// so nothing underflows.
+/// By Cramer's rule the signs are those of determinants of M ≤ 7 rows. Each term of a determinant
+/// has at most M − 1 roundings of products and M(M − 1)/2 of sums. 2u more of the sum of the terms'
+/// magnitudes covers the rounding of that sum, and of the bound. Entries are 0 or within 2^±60, so
+/// nothing underflows.
 template <std::size_t M>
 std::optional<Point<double, M>> provedWeights(const std::array<Point<double, M>, M>& normals,
                                               const Point<double, M>& goal) {
-  static_assert(M <= 5);
+  static_assert(M <= 7);
+  constexpr double kError = (static_cast<double>((M + 2) * (M - 1)) / 2 + 2) * kUnit;
   const auto usual = [](const Point<double, M>& p) {
     return std::all_of(p.begin(), p.end(), [](double x) {
       return x == 0 || (std::abs(x) > 0x1p-60 && std::abs(x) < 0x1p60);
     });
   };
   if (!usual(goal) || !std::all_of(normals.begin(), normals.end(), usual)) return std::nullopt;
-  const auto sure = [](const Determinant& d) { return std::abs(d.value) > 16 * kUnit * d.size; };
+  const auto sure = [](const Determinant& d) { return std::abs(d.value) > kError * d.size; };
   const Determinant all = determinant<M>(normals);
   if (!sure(all)) return std::nullopt;
   Point<double, M> weights;

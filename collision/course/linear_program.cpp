@@ -119,8 +119,8 @@ class Program {
     for (std::size_t k = 0; k < kD; ++k) x[k] = (first.x[k] + second.x[k]) / s;
     if (!x.allFinite()) return false;
     for (const HalfSpace<D>& each : list_) {
-      // D products and D sums, each rounded: (D + 1)u of the sum of magnitudes. Underflow adds at
-      // most 2^-1022 times the larger of 1 and the largest factor, for each of these operations.
+      // D products and D sums, each rounded: (D + 1)u ≤ 7u of the sum of magnitudes. Underflow adds
+      // at most 2^-1022 times the larger of 1 and the largest factor, for each of these operations.
       const double size = each.normal.cwiseAbs().dot(x.cwiseAbs()) + std::abs(each.offset);
       const double tiny =
           0x1p-1018 * std::max({1.0, x.cwiseAbs().maxCoeff(), each.normal.cwiseAbs().maxCoeff()});
@@ -176,8 +176,8 @@ class Program {
     // is near it. To include this point, the bounds are more than twice the largest coordinate of
     // `answer_.x`. If a bound is in the proof, the next round squares twice the bounds, so that few
     // rounds are needed. If `answer_.x` overflows in double, other bounds are used. The coordinates
-    // of the point are quotients of determinants of at most four rows (Cramer's rule), so they are
-    // below 2^65536 by far.
+    // of the point are quotients of determinants of at most six rows (Cramer's rule), so they are
+    // below 2^65536 by far: a quotient of products of six doubles each is below 2^13000.
     const double size = answer_.x.cwiseAbs().maxCoeff();
     Rational reach = std::isfinite(size) ? 2 * seidel::rational(size) + 1
                                          : Rational(boost::multiprecision::cpp_int(1) << 65536);
@@ -218,13 +218,16 @@ LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<co
   return solveLinearProgram<D>(both, Eigen::Vector<double, D>::Zero(), seed);
 }
 
-template LinearProgramAnswer<2> solveLinearProgram(std::span<const HalfSpace<2>>,
-                                                   const Eigen::Vector2d&, std::uint64_t);
-template LinearProgramAnswer<3> solveLinearProgram(std::span<const HalfSpace<3>>, const Vec3&,
-                                                   std::uint64_t);
-template LinearProgramAnswer<2> commonPoint(std::span<const HalfSpace<2>>,
-                                            std::span<const HalfSpace<2>>, std::uint64_t);
-template LinearProgramAnswer<3> commonPoint(std::span<const HalfSpace<3>>,
-                                            std::span<const HalfSpace<3>>, std::uint64_t);
+#define CORRIDOR_LINEAR_PROGRAM(D)                                                       \
+  template LinearProgramAnswer<D> solveLinearProgram(                                    \
+      std::span<const HalfSpace<D>>, const Eigen::Matrix<double, D, 1>&, std::uint64_t); \
+  template LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>>,             \
+                                              std::span<const HalfSpace<D>>, std::uint64_t);
+CORRIDOR_LINEAR_PROGRAM(2)
+CORRIDOR_LINEAR_PROGRAM(3)
+CORRIDOR_LINEAR_PROGRAM(4)
+CORRIDOR_LINEAR_PROGRAM(5)
+CORRIDOR_LINEAR_PROGRAM(6)
+#undef CORRIDOR_LINEAR_PROGRAM
 
 }  // namespace corridor

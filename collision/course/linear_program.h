@@ -11,8 +11,9 @@
 
 namespace corridor {
 
-/// The half-space {x : normal·x ≤ offset} of the plane (D = 2) or of space (D = 3). The normal may
-/// have any length. If the normal is 0, the set is all points (offset ≥ 0) or none.
+/// The half-space {x : normal·x ≤ offset} in D variables: of the plane (D = 2), of space (D = 3),
+/// or in more dimensions. The normal may have any length. If the normal is 0, the set is all points
+/// (offset ≥ 0) or none.
 template <int D>
 struct HalfSpace {
   Eigen::Matrix<double, D, 1> normal = Eigen::Matrix<double, D, 1>::Zero();
@@ -48,15 +49,15 @@ struct LinearProgramAnswer {
   bool exact = false;  ///< the status was decided in rational arithmetic
 };
 
-/// Maximises goal·x over all points x that are in all half-spaces, in the plane or in space.
+/// Maximises goal·x over all points x that are in all half-spaces, in 2 to 6 variables.
 ///
 /// Method: Seidel's algorithm in double, in random order (seidel-inl.h), gives a candidate. The
 /// candidate's own witness, with a bound of all rounding, proves whether the half-spaces have a
 /// common point: it is a point inside all half-spaces, or weights whose signs are those of small
 /// determinants. What the witness does not decide is decided in rationals. If the goal is not 0,
 /// rationals always decide `unbounded` and the optimum. The rational computation uses the few
-/// half-spaces that determine the answer; all others are tested against the result. Cost: O(n) in
-/// the mean for n half-spaces.
+/// half-spaces that determine the answer; all others are tested against the result. Cost: O(D!·n)
+/// in the mean for n half-spaces.
 /// @param goal  the objective vector. If it is 0, any point of all half-spaces is optimal.
 /// @param seed  seed of the random order. It changes neither the status nor the optimal value.
 /// @throws std::invalid_argument if a component of a normal or of the goal, or an offset, is not
@@ -73,13 +74,16 @@ template <int D>
 LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<const HalfSpace<D>> b,
                                    std::uint64_t seed = 1);
 
-extern template LinearProgramAnswer<2> solveLinearProgram(std::span<const HalfSpace<2>>,
-                                                          const Eigen::Vector2d&, std::uint64_t);
-extern template LinearProgramAnswer<3> solveLinearProgram(std::span<const HalfSpace<3>>,
-                                                          const Vec3&, std::uint64_t);
-extern template LinearProgramAnswer<2> commonPoint(std::span<const HalfSpace<2>>,
-                                                   std::span<const HalfSpace<2>>, std::uint64_t);
-extern template LinearProgramAnswer<3> commonPoint(std::span<const HalfSpace<3>>,
-                                                   std::span<const HalfSpace<3>>, std::uint64_t);
+#define CORRIDOR_LINEAR_PROGRAM(D)                                                       \
+  extern template LinearProgramAnswer<D> solveLinearProgram(                             \
+      std::span<const HalfSpace<D>>, const Eigen::Matrix<double, D, 1>&, std::uint64_t); \
+  extern template LinearProgramAnswer<D> commonPoint(                                    \
+      std::span<const HalfSpace<D>>, std::span<const HalfSpace<D>>, std::uint64_t);
+CORRIDOR_LINEAR_PROGRAM(2)
+CORRIDOR_LINEAR_PROGRAM(3)
+CORRIDOR_LINEAR_PROGRAM(4)
+CORRIDOR_LINEAR_PROGRAM(5)
+CORRIDOR_LINEAR_PROGRAM(6)
+#undef CORRIDOR_LINEAR_PROGRAM
 
 }  // namespace corridor

@@ -46,7 +46,7 @@ class Programs {
   /// normals are repeated or opposite. Some half-spaces contain the origin, others don't.
   std::vector<HalfSpace<D>> next() {
     const bool whole = random_() % 2;
-    const std::size_t count = random_() % 9;
+    const std::size_t count = random_() % (D < 4 ? 9 : 4 * D);
     const double least = random_() % 3 ? -0.3 : -1;
     std::vector<HalfSpace<D>> list;
     for (std::size_t i = 0; i < count; ++i) {
@@ -127,6 +127,25 @@ TEST(LinearProgram, AgreesWithRationalSimplexInSpace) {
 }
 TEST(LinearProgram, AgreesWithRationalSimplexInThePlane) {
   compare<2>(cases(), test::testSeed(4));
+}
+TEST(LinearProgram, AgreesWithRationalSimplexInFourToSixVariables) {
+  compare<4>(cases() / 10, test::testSeed(5));
+  compare<5>(cases() / 10, test::testSeed(6));
+  compare<6>(cases() / 10, test::testSeed(7));
+}
+
+// The dual of a cube: the maximum of goal·x over |x_1| + … + |x_6| ≤ 1 is the largest |goal_k|. All
+// 64 half-spaces have a corner in common with many others.
+TEST(LinearProgram, CrossPolytopeInSixVariables) {
+  std::vector<HalfSpace<6>> list;
+  for (unsigned signs = 0; signs < 64; ++signs) {
+    HalfSpace<6> each{{}, 1};
+    for (int k = 0; k < 6; ++k) each.normal[k] = signs >> k & 1 ? 1 : -1;
+    list.push_back(each);
+  }
+  const auto found = solveLinearProgram<6>(list, Vector<6>(1, -2, 3, -4.5, 4, 0.5));
+  EXPECT_EQ(found.status, LinearProgramStatus::optimal);
+  EXPECT_TRUE(found.x == -Vector<6>::Unit(3)) << found.x.transpose();
 }
 
 TEST(LinearProgram, TouchingHalfSpacesShareAPoint) {
