@@ -41,4 +41,8 @@ void listQuery(CLI::App& program, int&) {
   program.add_subcommand("query", kQueryHelp);
 }
 
+void listCourse(CLI::App& program, int&) {
+  program.add_subcommand("course", kCourseHelp);
+}
+
 }  // namespace corridor::app

@@ -121,7 +121,7 @@ int queryDepth(const QueryArguments& a, const NamedQuery& query) {
 }
 
 int queryConvexHulls(const QueryArguments& a) {
-  requireHullQuery(*a.hulls, a.query, a.coherent);
+  requireHullQuery(*a.hulls, a.query, a.direction.has_value(), a.coherent);
   const std::optional<Vec3> direction = directionOf(a);
   const PoseInput input(a);
   queryHulls({input.meshA.mesh, a.meshA}, {input.meshB.mesh, a.meshB}, input.poses, *a.hulls,
@@ -206,14 +206,20 @@ void addQuery(CLI::App& program, int& status) {
           "least length by which B must move to leave A, at all or along --direction (inf, if no "
           "length is proved to be enough), and the direction; steps are rounds of "
           "the search, with vclip also pairs of features, with axes the axes tested, with lp 0, "
-          "with barba-langerman the tests of two parts\n"
+          "with barba-langerman the tests of two parts, with descent the pairs of pyramids; the "
+          "depth "
+          "by descent has no lower bound and no points (0), and n is the normal of the plane that "
+          "proves upper\n"
           "  tolerance: pose,closer, which is 1 if A and B are at most the tolerance apart\n"
           "  with --deform: frame before these columns, 0 for A itself; after them refit_ms, the "
           "time to refit the tree of A to the frame, and query_ns\n"
           "  motions: motion,verdict,t0,t1,gap,triangle_a,triangle_b,bv_tests,triangle_tests,"
           "splits\n"
           "Verdicts of motions: free; contact: no contact before t0, and one at t1, where t1 - t0 "
-          "is at most 1/1024 unless the meshes graze; undecided: no contact before t0, and at t1 "
+          "is at most 1/1024 unless the meshes graze. Contact is decided at the pose of the motion "
+          "at t1; "
+          "at 0 and 1 it has the rotation nearest to the matrix in the file. undecided: no contact "
+          "before t0, and at t1 "
           "the two triangles are gap metres apart. t is 0 at the start of a motion and 1 at its "
           "end. A value that does not exist is -1.\n"
           "Touching is contact; meshes are surfaces. Times are those of one query on one core, "

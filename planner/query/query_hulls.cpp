@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "collision/core/error.h"
 #include "collision/core/quantiles.h"
 #include "collision/core/spelling.h"
+#include "collision/course/hierarchy_descent.h"
 #include "collision/course/outer_hierarchy.h"
 #include "collision/course/polytope_intersection.h"
 #include "collision/course/query_timing.h"
@@ -28,40 +30,57 @@
 namespace corridor::app {
 namespace {
 
+/// The methods that run GJK. They take flat hulls, too.
+const std::vector<std::string>& gjkMethods() {
+  static const std::vector<std::string> names = {"hierarchy", "climbing", "every-vertex"};
+  return names;
+}
+
 /// The hull of a mesh's vertices, with the structures that the methods need.
 struct Hull {
   std::optional<DobkinKirkpatrick> hierarchy;
   std::optional<PolytopeFeatures> features;  ///< with vclip and axes
   std::optional<OuterHierarchy> outer;       ///< with barba-langerman; refers to `hierarchy`
-  ConvexPart part;                           ///< the vertices of the hull
+  ConvexPart part;                           ///< the vertices of the hull; all, if it is flat
   double buildMs = 0;
 
   Hull(const Hull&) = delete;
   Hull(const HullInput& input, const std::string& method) {
     const auto start = std::chrono::steady_clock::now();
+    std::vector<Vec3> used;  // the vertices of triangles; other vertices don't count
+    std::vector<bool> taken(input.mesh.vertices.size(), false);
+    for (const auto& triangle : input.mesh.triangles)
+      for (const auto v : triangle)
+        if (!taken[v]) taken[v] = true, used.push_back(input.mesh.vertices[v]);
     try {
-      std::vector<Vec3> used;  // the vertices of triangles; other vertices don't count
-      std::vector<bool> taken(input.mesh.vertices.size(), false);
-      for (const auto& triangle : input.mesh.triangles)
-        for (const auto v : triangle)
-          if (!taken[v]) taken[v] = true, used.push_back(input.mesh.vertices[v]);
       hierarchy.emplace(Polytope(used));
       if (method == "vclip" || method == "axes") features.emplace(*hierarchy);
       if (method == "barba-langerman") outer.emplace(*hierarchy);
     } catch (const std::invalid_argument& error) {
-      throw InputError(
-          Fault{input.file, 0, std::string("--hulls needs a solid hull: ") + error.what()});
+      if (method != "lp" && std::ranges::count(gjkMethods(), method) == 0)
+        throw InputError(Fault{input.file, 0,
+                               "--hulls " + method + " needs a solid hull: " + error.what() +
+                                   "; use --hulls every-vertex"});
+      hierarchy.reset();
+      part.points = std::move(used);
+      if (method == "hierarchy" || method == "climbing")
+        std::cerr << "note: " << input.file << ": the hull is flat, so every vertex is tested\n";
     }
     buildMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    if (!hierarchy) return;
     const auto vertices = hierarchy->polytope().vertices();
     part.points.assign(vertices.begin(), vertices.end());
   }
 
   ConvexSet by(const std::string& method) const {
-    if (method == "hierarchy") return *hierarchy;
-    if (method == "climbing") return hierarchy->polytope();
+    if (hierarchy && method == "hierarchy") return *hierarchy;
+    if (hierarchy && method == "climbing") return hierarchy->polytope();
     return part;
+  }
+  std::size_t levels() const { return hierarchy ? hierarchy->levels() : 0; }
+  std::size_t bytes() const {
+    return (hierarchy ? hierarchy->bytes() : 0) + (outer ? outer->bytes() : 0);
   }
 };
 
@@ -85,24 +104,45 @@ std::string numbers(const Vec3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
+/// Prints a note if a coordinate is beyond the sizes for which GJK's answers are accurate
+/// (`PosedSet`, collision/convex/convex_set.h).
+void noteExtremeSizes(const HullInput& input) {
+  const auto isExtreme = [](double x) {
+    return x != 0 && !(std::abs(x) > 0x1p-440 && std::abs(x) < 0x1p440);
+  };
+  for (const Vec3& p : input.mesh.vertices)
+    if (isExtreme(p.x()) || isExtreme(p.y()) || isExtreme(p.z())) {
+      std::cerr << "note: " << input.file
+                << ": a coordinate is not within 1e-132 to 1e132 m, so contacts may be reported "
+                   "that do not exist, and distances may be too small\n";
+      return;
+    }
+}
+
 }  // namespace
 
 const std::vector<std::string>& hullMethods() {
-  static const std::vector<std::string> names = {"hierarchy", "climbing", "every-vertex",   "lp",
-                                                 "vclip",     "axes",     "barba-langerman"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = gjkMethods();
+    all.insert(all.end(), {"lp", "vclip", "axes", "barba-langerman", "descent"});
+    return all;
+  }();
   return names;
 }
 
 void requireHullQuery(const std::string& method, const std::optional<std::string>& asked,
-                      bool coherent) {
+                      bool hasDirection, bool coherent) {
   const std::string query = asked.value_or("interference");
   const std::vector<std::string> queries = {"interference", "distance", "depth"};
   if (std::ranges::count(queries, query) == 0)
     throw InputError(Fault{"--query", 0,
                            "unknown query with --hulls: " + quotedWord(query) +
                                didYouMean(query, queries) + "; there are: " + joined(queries)});
-  const bool keepsNothing = method == "lp" || method == "barba-langerman";
-  if ((keepsNothing || method == "axes") && query != "interference")
+  const bool keepsNothing = method == "lp" || method == "barba-langerman" || method == "descent";
+  if (method == "descent" && query != "distance" && !(query == "depth" && hasDirection))
+    throw InputError(
+        Fault{"--hulls", 0, "descent needs --query distance, or --query depth with --direction"});
+  if (method != "descent" && (keepsNothing || method == "axes") && query != "interference")
     throw InputError(Fault{"--hulls", 0, method + " needs --query interference"});
   if (method == "vclip" && query == "depth")
     throw InputError(Fault{"--hulls", 0, "vclip needs --query interference or distance"});
@@ -119,6 +159,8 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
                 bool coherent, int repeat) {
   const std::string query = asked.value_or("interference");
   const Hull a(inputA, method), b(inputB, method);
+  if (std::ranges::count(gjkMethods(), method) > 0)
+    for (const HullInput& input : {inputA, inputB}) noteExtremeSizes(input);
   const ConvexSet setA = a.by(method), setB = b.by(method);
   std::string text = query == "interference" ? "pose,hit,steps\n"
                      : query == "distance"
@@ -127,8 +169,8 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
   BatchResult result;
   result.buildMsA = a.buildMs;
   result.buildMsB = b.buildMs;
-  result.bytesA = a.hierarchy->bytes() + (a.outer ? a.outer->bytes() : 0);
-  result.bytesB = b.hierarchy->bytes() + (b.outer ? b.outer->bytes() : 0);
+  result.bytesA = a.bytes();
+  result.bytesB = b.bytes();
   std::size_t hits = 0, allSteps = 0;
   LastQuery last;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -170,6 +212,19 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
         steps = static_cast<std::size_t>(found.steps) + static_cast<std::size_t>(found.rounds);
         return;
       }
+      if (method == "descent") {
+        int pieces = 0;
+        if (query == "distance") {
+          takeDistance(distanceByDescent(*a.hierarchy, {}, *b.hierarchy, poses[i], &pieces));
+        } else {
+          const DepthByDescent d =
+              depthByDescent(*a.hierarchy, {}, *b.hierarchy, poses[i], *direction, &pieces);
+          hit = d.upper > 0;
+          answer = numbers({0, d.upper}) + numbers(d.normal_W) + numbers({0, 0, 0, 0, 0, 0});
+        }
+        steps = static_cast<std::size_t>(pieces);
+        return;
+      }
       const PosedSet placedA(setA, {}), placedB(setB, poses[i]);
       if (query == "interference") {
         hit = convexSetsTouch(placedA, placedB, &last.simplex);
@@ -208,9 +263,9 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
       {"query=" + query, "hulls=" + method, std::string("coherent=") + (coherent ? "1" : "0"),
        "vertices_a=" + std::to_string(a.part.points.size()),
        "vertices_b=" + std::to_string(b.part.points.size()),
-       "levels_a=" + std::to_string(a.hierarchy->levels()),
-       "levels_b=" + std::to_string(b.hierarchy->levels()), "poses=" + std::to_string(poses.size()),
-       "hits=" + std::to_string(hits), "steps=" + std::to_string(meanSteps)});
+       "levels_a=" + std::to_string(a.levels()), "levels_b=" + std::to_string(b.levels()),
+       "poses=" + std::to_string(poses.size()), "hits=" + std::to_string(hits),
+       "steps=" + std::to_string(meanSteps)});
 }
 
 }  // namespace corridor::app

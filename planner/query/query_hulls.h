@@ -16,15 +16,17 @@ namespace corridor::app {
 /// - `vclip`: closest features.
 /// - `axes`: separating axes.
 /// - `barba-langerman`: inner and outer hierarchies.
+/// - `descent`: Dobkin and Kirkpatrick's own descent in both hierarchies.
 const std::vector<std::string>& hullMethods();
 
 /// Checks the query that `queryHulls` takes.
 /// @param method one of `hullMethods`. @param query interference, distance or depth; unset:
 /// interference.
+/// @param hasDirection whether a direction is given, for the depth.
 /// @throws InputError for another query, for a query that the method does not have, and for
 /// `coherent` if the method, or the query `depth`, keeps nothing from pose to pose.
 void requireHullQuery(const std::string& method, const std::optional<std::string>& query,
-                      bool coherent);
+                      bool hasDirection, bool coherent);
 
 /// A mesh, and its file for messages.
 struct HullInput {
@@ -39,8 +41,8 @@ struct HullInput {
 /// @param coherent each query begins with data that the query at the preceding pose has kept, such
 /// as a separating axis or a pair of features.
 /// @param repeat the number of passes over all poses.
-/// @throws InputError for a mesh whose vertices are all on one plane, and for a pose that the
-/// method does not take. @pre `requireHullQuery` accepts the arguments.
+/// @throws InputError for a mesh whose vertices are all on one plane, unless the method is GJK or
+/// lp, and for a pose that the method does not take. @pre `requireHullQuery` accepts the arguments.
 void queryHulls(const HullInput& a, const HullInput& b, const std::vector<Transform>& poses,
                 const std::string& method, const std::optional<std::string>& query,
                 const std::optional<Vec3>& direction, bool coherent, int repeat);

@@ -156,8 +156,8 @@ std::vector<Row> allOptions() {
               .needs = {Rule{{"--query tolerance", "--motions"},
                              "needs --query tolerance or --motions"}}}},
       {"--hulls", &Q::hulls, query,
-       "take A and B as the convex hulls of their vertices, which must not all be on one plane, "
-       "with --query interference, distance or depth. The methods: " +
+       "take A and B as the convex hulls of their vertices, with --query interference, distance or "
+       "depth. The first three methods and lp take flat hulls, too. The methods: " +
            joined(hullMethods()) +
            ". hierarchy, climbing and every-vertex differ in how they find the vertex that is "
            "farthest along a direction. The others are other algorithms. lp tests for a separating "
@@ -166,9 +166,11 @@ std::vector<Row> allOptions() {
            "normals of faces and the cross products of edges (interference only); its time grows "
            "with the product of the numbers of edges, so it is for small hulls. barba-langerman "
            "tests parts of an inner hierarchy of A against parts of an outer one of B "
-           "(interference only). Verdicts of axes, vclip and barba-langerman are exact; so are "
+           "(interference only). descent is Dobkin and Kirkpatrick's own search in the hierarchies "
+           "of A and B (distance, and depth with --direction). Verdicts of axes, vclip and "
+           "barba-langerman are exact; so are "
            "those "
-           "of lp, for the rounded vertices. The other three may report contact for gaps below "
+           "of lp, for the rounded vertices. The others may report contact for gaps below "
            "2^-44 "
            "of the largest coordinate",
        Checks{.noun = "method",

@@ -13,21 +13,17 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "collision/core/fault_list.h"
-#include "collision/core/read_file.h"
+#include "collision/core/error.h"
 #include "collision/core/rounding.h"
 #include "collision/core/spelling.h"
 #include "collision/core/whole_file.h"
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/query/number_lines.h"
 
 namespace corridor::app {
 namespace {
-
-/// At most this many faulty lines are reported one by one, because a file in another format has a
-/// fault in every line. If there are more, the last faulty line is reported, too.
-constexpr int kFaultsListed = 10;
 
 /// Returns why R is not a rotation, or "" if it is.
 std::string whyNoRotation(const Mat3& R) {
@@ -94,59 +90,6 @@ std::string parseMotion(const Numbers& values, PoseMotion& motion) {
   return "";
 }
 
-/// Reads the numbers of a line into `values`. Returns what is wrong, or "".
-std::string numbersOf(std::string_view line, Numbers& values) {
-  while (true) {
-    constexpr std::string_view kBlanks = " \t\r,";
-    line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlanks)));
-    if (line.empty()) return "";
-    const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-    line.remove_prefix(word.size());
-    double value = 0;
-    if (std::string complaint = parseNumber(word, Range::Any, value); !complaint.empty())
-      return complaint;
-    values.push_back(value);
-  }
-}
-
-/// Reads a file; `parse(numbers, made)` reads each line. `what` names the lines in messages.
-/// Blank lines and comments are skipped. @throws InputError with the faults.
-template <class Made, class Parse>
-std::vector<Made> readLines(const std::filesystem::path& file, const std::string& what,
-                            const Parse& parse) {
-  const std::string name = file.string();
-  FaultList faults(name);
-  std::vector<Made> all;
-  const std::string text = readTextStream(file, "a file of " + what + ", one per line,");
-  int number = 0, faulty = 0, lastFaulty = 0;
-  // Skips the byte order mark of UTF-8, which some editors write.
-  for (std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line(text.data() + begin, end - begin);
-    begin = end + 1;
-    ++number;
-    line = line.substr(0, line.find('#'));
-    Numbers values;
-    std::string complaint = numbersOf(line, values);
-    if (complaint.empty() && values.empty()) continue;
-    Made made;
-    if (complaint.empty()) complaint = parse(values, made);
-    if (complaint.empty()) {
-      all.push_back(made);
-      continue;
-    }
-    if (++faulty <= kFaultsListed) faults.add(name, number, complaint);
-    lastFaulty = number;
-  }
-  if (faulty > kFaultsListed)
-    faults.add(name, lastFaulty,
-               "and so on: " + counted(static_cast<std::uint64_t>(faulty), "line") +
-                   " are faulty, this is the last");
-  if (all.empty() && faulty == 0) faults.add(name, 0, "no " + what);
-  faults.throwIfAny();
-  return all;
-}
-
 struct Bounds {
   Vec3 low, high;
   Vec3 center() const { return low + (high - low) / 2; }
@@ -191,12 +134,18 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
 }  // namespace
 
 std::vector<Transform> readPoses(const std::filesystem::path& file) {
-  return readLines<Transform>(
-      file, "poses", [](const Numbers& values, Transform& X) { return parsePose(values, X); });
+  std::vector<Transform> poses;
+  readNumberLines(file, "poses",
+                  [&](const Numbers& values) { return parsePose(values, poses.emplace_back()); });
+  return poses;
 }
 
 std::vector<PoseMotion> readMotions(const std::filesystem::path& file) {
-  return readLines<PoseMotion>(file, "motions", parseMotion);
+  std::vector<PoseMotion> motions;
+  readNumberLines(file, "motions", [&](const Numbers& values) {
+    return parseMotion(values, motions.emplace_back());
+  });
+  return motions;
 }
 
 std::vector<Transform> gridPoses(const PoseGrid& grid, const TriangleMesh& a,

@@ -20,7 +20,7 @@
 /// * Contact also by Barba and Langerman's algorithm with inner and outer hierarchies, by V-Clip,
 /// by
 ///   separating axes (up to 1000 vertices) and by linear programming (up to 10^4). The distance
-///   also by V-Clip.
+///   also by V-Clip, distance and depth along a direction also by Dobkin and Kirkpatrick's descent.
 /// * `contact of polygons`: whether two convex polygons of n vertices touch.
 #include <cmath>
 #include <iomanip>
@@ -36,6 +36,7 @@
 #include "collision/convex/convex_distance.h"
 #include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/convex/penetration.h"
+#include "collision/course/hierarchy_descent.h"
 #include "collision/course/outer_hierarchy.h"
 #include "collision/course/plane_separation.h"
 #include "collision/course/polygon_intersection.h"
@@ -262,7 +263,16 @@ class Measurement {
                    .distance.distance > 1;
     };
     time("contact", kind.name, "V-Clip", closest);
-    if (kind.gap > 0) time("distance", kind.name, "V-Clip", closest);
+    if (kind.gap > 0) {
+      time("distance", kind.name, "V-Clip", closest);
+      time("distance", kind.name, "descent", [&](std::size_t i) {
+        sink_ += distanceByDescent(a, pairs[i].X_WA, b, pairs[i].X_WB).distance > 1;
+      });
+    } else {
+      time("depth along", kind.name, "descent", [&](std::size_t i) {
+        sink_ += depthByDescent(a, pairs[i].X_WA, b, pairs[i].X_WB, {1, 2, 3}).upper > 1;
+      });
+    }
     time("contact", kind.name, "Barba-Langerman", [&](std::size_t i) {
       sink_ += intersection(a, pairs[i].X_WA, outerB, pairs[i].X_WB).intersects;
     });

@@ -48,9 +48,10 @@ TEST_F(NothingTested, EveryCommandWarnsFirst) {
        {"check alone.yaml", "check alone.yaml --json", "check alone.yaml --states states.txt",
         "check alone.yaml --states states.txt --json"}},
       {"inspect", {"inspect alone.yaml", "inspect alone.yaml --json"}},
-      {"query", {}},  // takes two meshes, no problem
-      {"pose", {}},   // takes a robot, no problem
-      {"new", {}},    // takes a robot, no problem
+      {"query", {}},   // takes two meshes, no problem
+      {"course", {}},  // takes no problem, either
+      {"pose", {}},    // takes a robot, no problem
+      {"new", {}},     // takes a robot, no problem
   };
   for (const std::string& command : commands()) EXPECT_EQ(uses.count(command), 1u) << command;
   for (const auto& [command, all] : uses)

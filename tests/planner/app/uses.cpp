@@ -143,6 +143,7 @@ const std::vector<Use>& uses() {
        "query cube.obj cube.obj --poses poses.txt --deform cube.obj cube.obj",
        {},
        "query cube.obj cube.obj --poses poses.txt --deform cube.obj --repeat 1000000"},
+      {"Course", "course plane cube.obj planes.txt", {}, "course plane cube.obj -"},
       {"QuerySavePoses",
        "query cube.obj cube.obj --grid 10x10x10 --save-poses out/grid.txt",
        {"grid.txt"},
@@ -177,6 +178,7 @@ UseTest::UseTest() {
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 3 2\nf 1 4 3\n"
       "f 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4 8\nf 3 8 7\nf 2 3 7\nf 2 7 6\nf 1 5 8\nf 1 8 4\n");
   const std::string turn = "1 0 0 0 1 0 0 0 1 ";
+  write("planes.txt", "0 0 1 2\n");
   write("poses.txt", turn + "0.5 0 0\n" + turn + "2 0 0.1\n");
   write("motions.txt", turn + "3 0 0.5 " + turn + "0.5 0 0.5\n");
   const auto urdf = [](const std::string& mesh) {

@@ -44,7 +44,7 @@ TEST_F(QueryCommand, Hulls) {
     EXPECT_EQ(figures.at("vertices_a"), "8");
     EXPECT_EQ(figures.at("hits"), "2");
   }
-  for (const char* method : {"hierarchy", "climbing", "every-vertex", "vclip"}) {
+  for (const char* method : {"hierarchy", "climbing", "every-vertex", "vclip", "descent"}) {
     const auto d = rows(std::string("--poses poses.txt --query distance --hulls ") + method);
     ASSERT_EQ(d.size(), 3u);
     ASSERT_EQ(d[0].size(), 13u);
@@ -52,7 +52,7 @@ TEST_F(QueryCommand, Hulls) {
     EXPECT_NEAR(d[0][3], 1, 1e-15);  // the normal
     EXPECT_EQ(d[1][1], 0);
     EXPECT_GE(d[0][12], 1);  // steps
-    if (std::string(method) == "vclip") continue;
+    if (std::string(method) == "vclip" || std::string(method) == "descent") continue;
     const auto p = rows(std::string("--poses poses.txt --query depth --hulls ") + method);
     EXPECT_EQ(p[0][2], 0);
     EXPECT_LE(p[1][1], 1e-13);
@@ -84,13 +84,18 @@ TEST_F(QueryCommand, DepthOfMeshes) {
   const auto up = rows("--poses poses.txt --query depth --direction 0,0,3");
   EXPECT_NEAR(up[1][2], 0.8, 1e-4);
   EXPECT_EQ(up[1][5], 1);
-  for (const std::string method : {"hierarchy", "climbing", "every-vertex"}) {
+  for (const std::string method : {"hierarchy", "climbing", "every-vertex", "descent"}) {
     const auto hulls = rows("--poses poses.txt --query depth --direction 0,0,3 --hulls " + method);
     ASSERT_EQ(hulls.size(), 2u);
     EXPECT_EQ(hulls[0][2], 0);
     EXPECT_LE(hulls[1][1], 0.8);
     EXPECT_GE(hulls[1][2], 0.8);
-    EXPECT_NEAR(hulls[1][1], hulls[1][2], 1e-8);
+    EXPECT_NEAR(hulls[1][2], 0.8, 1e-8);
+    if (method == "descent") {
+      EXPECT_EQ(hulls[1][1], 0);  // it proves no lower bound
+    } else {
+      EXPECT_NEAR(hulls[1][1], hulls[1][2], 1e-8);
+    }
     EXPECT_EQ(hulls[1][5], 1);
   }
   const auto fault = [&](const std::string& options) {
@@ -151,6 +156,28 @@ TEST_F(QueryCommand, CoherentHulls) {
     }
 }
 
+/// The triangles of the fixture are flat hulls: GJK and linear programming take them.
+TEST_F(QueryCommand, FlatHulls) {
+  for (const std::string method : {"hierarchy", "climbing", "every-vertex", "lp"}) {
+    const Result result = query("--poses poses.txt --hulls " + method);
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::vector<std::string> hits;
+    for (const std::string& row : lines(result.out)) hits.push_back(row.substr(0, 3));
+    EXPECT_EQ(hits, (std::vector<std::string>{"pos", "0,1", "1,1", "2,0", "3,1"})) << method;
+    EXPECT_EQ(result.err.starts_with("note: a.obj: the hull is flat, so every vertex is tested"),
+              method == "hierarchy" || method == "climbing")
+        << result.err;
+  }
+  const auto distances = rows("--poses poses.txt --hulls hierarchy --query distance");
+  EXPECT_NEAR(distances[2][1], 1e-7, 1e-15);
+}
+
+TEST_F(QueryCommand, HugeHullsAreNoted) {
+  write("a.obj", "v 0 0 0\nv 1e140 0 0\nv 0 1e140 0\nv 0 0 1e140\nf 1 2 3\nf 1 2 4\n");
+  EXPECT_THAT(query("--poses poses.txt --hulls every-vertex").err,
+              HasSubstr("note: a.obj: a coordinate is not within 1e-132 to 1e132 m"));
+}
+
 TEST_F(QueryCommand, HullsOnBadInput) {
   const auto fault = [&](const std::string& options) {
     const Result result = query("--poses poses.txt " + options);
@@ -158,9 +185,12 @@ TEST_F(QueryCommand, HullsOnBadInput) {
     EXPECT_EQ(result.out, "") << options;
     return result.err;
   };
-  EXPECT_EQ(fault("--hulls hierarchy"),
-            "a.obj: --hulls needs a solid hull: the points of a polytope must not all be on one "
-            "plane\n");
+  EXPECT_EQ(fault("--hulls vclip"),
+            "a.obj: --hulls vclip needs a solid hull: the points of a polytope must not all be on "
+            "one plane; use --hulls every-vertex\n");
+  EXPECT_THAT(fault("--hulls descent"), HasSubstr("descent needs --query distance"));
+  EXPECT_THAT(fault("--hulls descent --query depth"),
+              HasSubstr("or --query depth with --direction"));
   EXPECT_THAT(fault("--hulls hirarchy"),
               HasSubstr("--hulls: unknown method \"hirarchy\" (did you mean \"hierarchy\"?)"));
   EXPECT_THAT(fault("--hulls lp --query depth"), HasSubstr("lp needs --query interference"));
