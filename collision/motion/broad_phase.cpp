@@ -14,7 +14,7 @@ namespace {
 /// of the tree. With trees, an arm's edge took 1.1 times as long at 24 obstacles, and 0.4 times as
 /// long at 88 (many_bodies_benchmark).
 constexpr std::size_t kLeastPairs = 32;
-/// The least number of pairs of two moving bodies for a sweep (many_bodies_benchmark --rovers).
+/// The least number of pairs of two moving bodies for a sweep (many_bodies_benchmark --movers).
 constexpr std::size_t kLeastMovingPairs = 300;
 
 /// Whether both bodies move, and their motions as seen from the world are known.

@@ -46,6 +46,11 @@ std::string nanoseconds(const std::function<void()>& ask) {
   std::snprintf(buffer, sizeof buffer, "%.1f", nanosecondsOf(ask, ask));
   return buffer;
 }
+std::string row(const std::vector<std::string>& cells) {
+  std::string text;
+  for (const std::string& cell : cells) text += (text.empty() ? "" : ",") + cell;
+  return text + '\n';
+}
 int print(const std::string& csv) {
   std::cout << csv;
   requireResultsWritten();
@@ -94,12 +99,10 @@ int separatePlanes(const std::string& meshFile, const std::string& planeFile) {
       }
       most = largest - least;
     });
-    csv += joined({std::to_string(i), std::to_string(found.side), text(found.lower),
-                   text(found.upper), std::to_string(polytope.source(found.witness)),
-                   std::to_string(polytope.source(found.innermost)),
-                   std::to_string(polytope.source(found.outermost)), ns, everyVertexNs},
-                  ",") +
-           '\n';
+    csv += row({std::to_string(i), std::to_string(found.side), text(found.lower), text(found.upper),
+                std::to_string(polytope.source(found.witness)),
+                std::to_string(polytope.source(found.innermost)),
+                std::to_string(polytope.source(found.outermost)), ns, everyVertexNs});
   }
   return print(csv);
 }
@@ -129,8 +132,7 @@ int intersectPolygons(const std::string& fileP, const std::string& fileQ) {
   const ConvexPolygon p = readPolygon(fileP), q = readPolygon(fileQ);
   std::string csv = "method,hit,steps,exact,ns\n";
   const auto add = [&](const char* method, bool hit, int steps, bool exact, const std::string& ns) {
-    csv +=
-        joined({method, hit ? "1" : "0", std::to_string(steps), exact ? "1" : "0", ns}, ",") + '\n';
+    csv += row({method, hit ? "1" : "0", std::to_string(steps), exact ? "1" : "0", ns});
   };
   PolygonIntersection byPruning;
   std::string ns = nanoseconds([&] { byPruning = intersection(p, q); });
@@ -161,7 +163,7 @@ int solveProgram(const ProgramLines& lines) {
     halfSpaces.push_back({Eigen::Matrix<double, D, 1>(line.data()), line[D]});
   LinearProgramAnswer<D> found;
   const std::string ns = nanoseconds([&] { found = solveLinearProgram<D>(halfSpaces, goal); });
-  const auto row = [](std::string key, const Eigen::Matrix<double, D, 1>& vector) {
+  const auto vectorRow = [](std::string key, const Eigen::Matrix<double, D, 1>& vector) {
     for (const double x : vector) key += ',' + text(x);
     return key + '\n';
   };
@@ -173,8 +175,8 @@ int solveProgram(const ProgramLines& lines) {
                                    : "infeasible") +
                     "\n";
   if (isOptimal) csv += "value," + text(goal.dot(found.x)) + '\n';
-  if (isOptimal || isUnbounded) csv += row("x", found.x);
-  if (isUnbounded) csv += row("ray", found.ray);
+  if (isOptimal || isUnbounded) csv += vectorRow("x", found.x);
+  if (isUnbounded) csv += vectorRow("ray", found.ray);
   for (const auto& [index, weight] : found.proof)
     csv += "weight," + std::to_string(index) + ',' + text(weight) + '\n';
   return print(csv + "exact," + (found.exact ? "1" : "0") + "\nns," + ns + '\n');
@@ -267,11 +269,9 @@ int sweepBoxes(const std::string& file) {
     });
     if (pairs != sweep.pairCount())
       throw std::logic_error("sweep and prune has other pairs than a test of every pair");
-    csv += joined({std::to_string(step), std::to_string(steps[step].size()), std::to_string(pairs),
-                   std::to_string(sweep.swaps() - before), step > 0 ? rounded(ns.count()) : "",
-                   everyPairNs},
-                  ",") +
-           '\n';
+    csv += row({std::to_string(step), std::to_string(steps[step].size()), std::to_string(pairs),
+                std::to_string(sweep.swaps() - before), step > 0 ? rounded(ns.count()) : "",
+                everyPairNs});
   }
   return print(csv);
 }

@@ -153,6 +153,112 @@ void requireHullQuery(const std::string& method, const std::optional<std::string
                                ", which keeps nothing from pose to pose"});
 }
 
+namespace {
+
+/// The answer at one pose. `distance` and `depth` are set for the queries of these names.
+struct HullAnswer {
+  bool hit = false;
+  std::size_t steps = 0;
+  ConvexDistance distance = {};
+  Penetration depth = {};
+};
+
+/// Queries of two hulls by one method.
+class HullQuery {
+ public:
+  HullQuery(const Hull& a, const Hull& b, std::string method, std::string query,
+            const std::optional<Vec3>& direction)
+      : a_(a),
+        b_(b),
+        setA_(a.by(method)),
+        setB_(b.by(method)),
+        method_(std::move(method)),
+        query_(std::move(query)),
+        direction_(direction) {}
+
+  /// @param last  in: the data of the query before; out: of this query.
+  HullAnswer at(const Transform& pose, LastQuery& last) const {
+    if (method_ == "lp") {
+      std::vector<Vec3> moved;
+      for (const Vec3& p : b_.part.points) moved.push_back(pose * p);
+      const auto plane =
+          separatingPlane<3>(std::span<const Vec3>(a_.part.points), std::span<const Vec3>(moved));
+      return {plane.relation != HullRelation::disjoint};
+    }
+    if (method_ == "barba-langerman") {
+      const PolytopeIntersection found = intersection(*a_.hierarchy, {}, *b_.outer, pose);
+      return {found.intersects, static_cast<std::size_t>(found.steps)};
+    }
+    if (method_ == "axes") {
+      const SeparatingAxis before = last.axis;
+      last.axis = separatingAxis(*a_.features, {}, *b_.features, pose, &before);
+      return {!last.axis.separated, last.axis.faces + last.axis.edgePairs};
+    }
+    if (method_ == "vclip") {
+      const ClosestFeatures found =
+          closestFeatures(*a_.features, {}, *b_.features, pose, last.features);
+      return ofDistance(found.distance, found.steps + found.rounds);
+    }
+    int steps = 0;
+    if (method_ == "descent" && query_ == "distance") {
+      const ConvexDistance found =
+          distanceByDescent(*a_.hierarchy, {}, *b_.hierarchy, pose, &steps);
+      return ofDistance(found, steps);
+    }
+    if (method_ == "descent") {
+      const DepthByDescent found =
+          depthByDescent(*a_.hierarchy, {}, *b_.hierarchy, pose, *direction_, &steps);
+      Penetration depth;
+      depth.upper = found.upper;
+      depth.direction_W = found.normal_W;
+      return ofDepth(depth, steps);
+    }
+    const PosedSet placedA(setA_, {}), placedB(setB_, pose);
+    if (query_ == "interference") {
+      const bool hit = convexSetsTouch(placedA, placedB, &last.simplex);
+      return {hit, static_cast<std::size_t>(last.simplex.rounds)};
+    }
+    if (query_ == "distance") {
+      const ConvexDistance found = convexDistance(placedA, placedB, 0, 0, &last.simplex);
+      return ofDistance(found, last.simplex.rounds);
+    }
+    const Penetration found = direction_ ? penetrationAlong(placedA, placedB, *direction_)
+                                         : penetration(placedA, placedB);
+    return ofDepth(found, found.rounds);
+  }
+
+  std::string header() const {
+    if (query_ == "interference") return "pose,hit,steps\n";
+    const char* first = query_ == "distance" ? "pose,distance,lower" : "pose,lower,upper";
+    return first + std::string(",nx,ny,nz,ax,ay,az,bx,by,bz,steps\n");
+  }
+  std::string cells(const HullAnswer& answer) const {
+    if (query_ == "interference") return answer.hit ? ",1" : ",0";
+    const ConvexDistance& distance = answer.distance;
+    const Penetration& depth = answer.depth;
+    if (query_ == "distance")
+      return numbers({distance.distance, distance.lower}) + numbers(distance.normal_W) +
+             numbers(distance.p_WA) + numbers(distance.p_WB);
+    return numbers({depth.lower, depth.upper}) + numbers(depth.direction_W) + numbers(depth.p_WA) +
+           numbers(depth.p_WB);
+  }
+
+ private:
+  static HullAnswer ofDistance(const ConvexDistance& found, int steps) {
+    return {found.distance == 0, static_cast<std::size_t>(steps), found, {}};
+  }
+  static HullAnswer ofDepth(const Penetration& found, int steps) {
+    return {found.upper > 0, static_cast<std::size_t>(steps), {}, found};
+  }
+
+  const Hull &a_, &b_;
+  ConvexSet setA_, setB_;
+  std::string method_, query_;
+  std::optional<Vec3> direction_;
+};
+
+}  // namespace
+
 void queryHulls(const HullInput& inputA, const HullInput& inputB,
                 const std::vector<Transform>& poses, const std::string& method,
                 const std::optional<std::string>& asked, const std::optional<Vec3>& direction,
@@ -161,11 +267,8 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
   const Hull a(inputA, method), b(inputB, method);
   if (std::ranges::count(gjkMethods(), method) > 0)
     for (const HullInput& input : {inputA, inputB}) noteExtremeSizes(input);
-  const ConvexSet setA = a.by(method), setB = b.by(method);
-  std::string text = query == "interference" ? "pose,hit,steps\n"
-                     : query == "distance"
-                         ? "pose,distance,lower,nx,ny,nz,ax,ay,az,bx,by,bz,steps\n"
-                         : "pose,lower,upper,nx,ny,nz,ax,ay,az,bx,by,bz,steps\n";
+  const HullQuery hulls(a, b, method, query, direction);
+  std::string text = hulls.header();
   BatchResult result;
   result.buildMsA = a.buildMs;
   result.buildMsB = b.buildMs;
@@ -175,70 +278,10 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
   LastQuery last;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const LastQuery before = coherent ? last : LastQuery{};
-    bool hit = false;
-    std::size_t steps = 0;
-    std::string answer;
-    const auto takeDistance = [&](const ConvexDistance& d) {
-      hit = d.distance == 0;
-      if (query == "distance")
-        answer = numbers({d.distance, d.lower}) + numbers(d.normal_W) + numbers(d.p_WA) +
-                 numbers(d.p_WB);
-    };
+    HullAnswer answer;
     const auto ask = [&] {
       last = before;  // repeated calls do the same work
-      if (method == "lp") {
-        std::vector<Vec3> moved;
-        for (const Vec3& p : b.part.points) moved.push_back(poses[i] * p);
-        hit = separatingPlane<3>(std::span<const Vec3>(a.part.points), std::span<const Vec3>(moved))
-                  .relation != HullRelation::disjoint;
-        return;
-      }
-      if (method == "barba-langerman") {
-        const PolytopeIntersection found = intersection(*a.hierarchy, {}, *b.outer, poses[i]);
-        hit = found.intersects;
-        steps = static_cast<std::size_t>(found.steps);
-        return;
-      }
-      if (method == "axes") {
-        last.axis = separatingAxis(*a.features, {}, *b.features, poses[i], &before.axis);
-        hit = !last.axis.separated;
-        steps = last.axis.faces + last.axis.edgePairs;
-        return;
-      }
-      if (method == "vclip") {
-        const ClosestFeatures found =
-            closestFeatures(*a.features, {}, *b.features, poses[i], last.features);
-        takeDistance(found.distance);
-        steps = static_cast<std::size_t>(found.steps) + static_cast<std::size_t>(found.rounds);
-        return;
-      }
-      if (method == "descent") {
-        int pieces = 0;
-        if (query == "distance") {
-          takeDistance(distanceByDescent(*a.hierarchy, {}, *b.hierarchy, poses[i], &pieces));
-        } else {
-          const DepthByDescent d =
-              depthByDescent(*a.hierarchy, {}, *b.hierarchy, poses[i], *direction, &pieces);
-          hit = d.upper > 0;
-          answer = numbers({0, d.upper}) + numbers(d.normal_W) + numbers({0, 0, 0, 0, 0, 0});
-        }
-        steps = static_cast<std::size_t>(pieces);
-        return;
-      }
-      const PosedSet placedA(setA, {}), placedB(setB, poses[i]);
-      if (query == "interference") {
-        hit = convexSetsTouch(placedA, placedB, &last.simplex);
-      } else if (query == "distance") {
-        takeDistance(convexDistance(placedA, placedB, 0, 0, &last.simplex));
-      } else {
-        const Penetration d = direction ? penetrationAlong(placedA, placedB, *direction)
-                                        : penetration(placedA, placedB);
-        hit = d.upper > 0;
-        answer = numbers({d.lower, d.upper}) + numbers(d.direction_W) + numbers(d.p_WA) +
-                 numbers(d.p_WB);
-        last.simplex.rounds = d.rounds;
-      }
-      steps = static_cast<std::size_t>(last.simplex.rounds);
+      answer = hulls.at(poses[i], last);
     };
     std::vector<double> ns;
     try {
@@ -248,11 +291,10 @@ void queryHulls(const HullInput& inputA, const HullInput& inputB,
                              method + " can't test pose " + std::to_string(i) + ": " +
                                  error.what() + "; use another method"});
     }
-    result.answers.push_back({hit, 0, 0, medianOf(ns)});
-    hits += hit;
-    allSteps += steps;
-    text += std::to_string(i) + (query == "interference" ? (hit ? ",1" : ",0") : answer) + ',' +
-            std::to_string(steps) + '\n';
+    result.answers.push_back({answer.hit, 0, 0, medianOf(ns)});
+    hits += answer.hit;
+    allSteps += answer.steps;
+    text += std::to_string(i) + hulls.cells(answer) + ',' + std::to_string(answer.steps) + '\n';
   }
   std::cout << text;
   requireResultsWritten();

@@ -1,13 +1,14 @@
 /// Measures the cost of states and edges as a scene is cut into more and more bodies:
 /// `many_bodies_benchmark [--robot URDF] [--out FOLDER] [--largest N] [--edges N] [--length L]
-/// [--far]`.
+/// [--far | --movers]`.
 ///
 /// An arm stands in a room of four walls, each 2.4 m wide and 2 m high, 0.7 m from its base. The
 /// walls are cut into 10 to N square boxes in all (default 10^5), so the boxes always fill the same
 /// space. With --far, the boxes stand 10 m to 50 m away instead, out of the arm's reach, and the
 /// walls are cut into only 10 boxes. States and edges are random, and the same for every number of
-/// boxes. Each state and edge is certified with the broad phase (as the planner does), and by a
-/// test of each pair of bodies.
+/// boxes. With --movers there is no robot: N boxes of 5 cm float in a room of N cubic metres, and
+/// all move along each edge. Each state and edge is certified with the broad phase (as the planner
+/// does), and by a test of each pair of bodies.
 ///
 /// Prints CSV on stdout; the plot is written to FOLDER.
 #include <chrono>
@@ -33,7 +34,7 @@ struct Options {
   std::string robot;
   double largest = 0, length = 0;
   int edges = 0;
-  bool far = false;
+  bool far = false, movers = false;
 };
 
 /// Adds four walls of about `count` boxes in all.
@@ -66,15 +67,28 @@ void addFar(std::size_t count, ModelBuilder& builder) {
   }
 }
 
+/// Adds boxes that float in a room with one cubic metre for each.
+void addMovers(std::size_t count, ModelBuilder& builder) {
+  const double side = std::cbrt(static_cast<double>(count)) / 2;
+  const Corners room{Vec3::Constant(-side), Vec3::Constant(side)};
+  for (std::size_t i = 0; i < count; ++i)
+    builder.addRigidBody("mover" + std::to_string(i), JointType::floating,
+                         {shapeOf("box", Box{Vec3(0.05, 0.05, 0.05)})}, room);
+}
+
 struct Curves {
   std::vector<PlotPoint> states, edges, statesByPair, edgesByPair;
 };
 
 void measure(std::size_t count, const Options& o, Curves& curves) {
   ModelBuilder builder;
-  builder.addRobot(o.robot);
-  addWalls(o.far ? 10 : count, builder);
-  if (o.far) addFar(count, builder);
+  if (o.movers) {
+    addMovers(count, builder);
+  } else {
+    builder.addRobot(o.robot);
+    addWalls(o.far ? 10 : count, builder);
+    if (o.far) addFar(count, builder);
+  }
   Problem problem;
   problem.model = builder.build();
   problem.task.tube = tubeOf(problem.model.space);
@@ -125,7 +139,9 @@ void run(const Arguments& arguments) {
   std::cout << "bodies,pairs,free_edges,set_up_ms,state_us,edge_us,state_by_pair_us,edge_by_pair_"
                "us\n";
   Curves curves;
-  for (double n = 10; n < 1.1 * o.largest; n *= 10) measure(static_cast<std::size_t>(n), o, curves);
+  o.movers = arguments.has("--movers");
+  for (double n = 10; n < 1.1 * o.largest; n *= o.movers ? 2 : 10)
+    measure(static_cast<std::size_t>(n), o, curves);
   Plot plot{"many_bodies", "The same walls, cut into more and more boxes",
             "bodies",      "µs per query (one core)",
             true,          true};
@@ -142,5 +158,5 @@ void run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return corridor::bench::runWith(argc, argv,
                                   {"--robot", "--out", "--largest", "--edges", "--length"},
-                                  corridor::run, {"--far"});
+                                  corridor::run, {"--far", "--movers"});
 }

@@ -1,0 +1,87 @@
+"""The inputs of the commands in collision/COURSE.md."""
+import math
+import pathlib
+import random
+
+
+def write_mesh(file, vertices, faces):
+    text = "".join(f"v {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in vertices)
+    file.write_text(text + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces))
+
+
+def torus(rings, sides, bend=0.0):
+    """A torus with wrinkles; `bend` moves its vertices."""
+    vertices, faces = [], []
+    for i in range(rings):
+        for k in range(sides):
+            u, v = 2 * math.pi * i / rings, 2 * math.pi * k / sides
+            r = 0.3 + 0.03 * math.sin(9 * u + 4 * v)
+            vertices.append(((1 + r * math.cos(v)) * math.cos(u), (1 + r * math.cos(v)) * math.sin(u),
+                             r * math.sin(v) + bend * math.cos(u)))
+            a, b = i * sides + k, i * sides + (k + 1) % sides
+            c, d = (i + 1) % rings * sides + k, (i + 1) % rings * sides + (k + 1) % sides
+            faces += [(a, c, d), (a, d, b)]
+    return vertices, faces
+
+
+def direction(source):
+    while True:
+        v = [source.gauss(0, 1) for _ in range(3)]
+        size = math.hypot(*v)
+        if size > 1e-3:
+            return [x / size for x in v]
+
+
+def rotation(source):
+    w, x, y, z = (source.gauss(0, 1) for _ in range(4))
+    size = math.sqrt(w * w + x * x + y * y + z * z)
+    w, x, y, z = w / size, x / size, y / size, z / size
+    return [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+            2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+            2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
+
+
+def line(numbers):
+    return " ".join(f"{x:.17g}" for x in numbers) + "\n"
+
+
+def poses(source, count, nearest, farthest):
+    return [rotation(source) + [source.uniform(nearest, farthest) * x for x in direction(source)] for _ in range(count)]
+
+
+def make_inputs(folder: pathlib.Path):
+    source = random.Random(1)
+    write_mesh(folder / "a.obj", *torus(80, 30))
+    write_mesh(folder / "b.obj", *torus(60, 40))
+    for k in range(1, 4):
+        write_mesh(folder / f"a{k}.obj", *torus(80, 30, 0.02 * k))
+    (folder / "poses.txt").write_text("".join(map(line, poses(source, 300, 0, 2.7))))
+    starts, ends = poses(source, 100, 3, 3.2), poses(source, 100, 0, 1)
+    (folder / "motions.txt").write_text("".join(line(a + b) for a, b in zip(starts, ends)))
+    for name, count in (("p", 1000), ("q", 1000), ("p100", 100), ("q100", 100), ("p5", 100_000), ("q5", 100_000)):
+        points = [direction(source) for _ in range(count)]
+        write_mesh(folder / f"{name}.obj", points, [(i, i + 1, i + 2) for i in range(count - 2)])
+    (folder / "hulls.txt").write_text("".join(map(line, poses(source, 200, 1.6, 2.4))))
+    (folder / "apart.txt").write_text("".join(map(line, poses(source, 100, 2.05, 2.05))))
+    (folder / "overlap.txt").write_text("".join(map(line, poses(source, 100, 1.95, 1.95))))
+    still = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+    (folder / "steps.txt").write_text("".join(line(still + [2.6 * math.cos(a), 2.6 * math.sin(a), 0.1])
+                                              for a in (0.01 * i for i in range(300))))
+    (folder / "planes.txt").write_text("".join(line(direction(source) + [source.uniform(-1.5, 1.5)]) for _ in range(100)))
+    for name, shift in (("polygon_p", 0), ("polygon_q", 2.001), ("polygon_r", 1.9)):
+        count = 100_000
+        (folder / f"{name}.txt").write_text("".join(
+            line([shift + math.cos(2 * math.pi * i / count), math.sin(2 * math.pi * i / count)]) for i in range(count)))
+    for variables, count in ((3, 1000), (3, 10_000), (6, 1000), (6, 10_000)):
+        rows = [line([1] * variables)]
+        for _ in range(count):
+            normal = [source.gauss(0, 1) for _ in range(variables)]
+            rows.append(line(normal + [math.hypot(*normal)]))
+        (folder / f"program{variables}_{count}.txt").write_text("".join(rows))
+    boxes = [[source.uniform(0, 20) for _ in range(3)] for _ in range(800)]
+    text = "".join(line([0, i, *p, *(x + 1 for x in p)]) for i, p in enumerate(boxes))
+    for step in range(1, 6):
+        for i in range(0, 800, 8):
+            boxes[i] = [x + 0.01 for x in boxes[i]]
+            text += line([step, i, *boxes[i], *(x + 1 for x in boxes[i])])
+    (folder / "boxes.txt").write_text(text)
