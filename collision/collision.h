@@ -98,7 +98,7 @@
 ///    that separates the bodies. The answer has two proved bounds of the depth, and a direction. A
 ///    translation of b along this direction by the upper bound separates the bodies. The two bounds
 ///    may differ much for bodies that are not convex. This question costs some 15 times as much as
-///    question 6.
+///    question 6. It needs collision/course/body_depth.h, and the library corridor::course.
 ///
 ///        // X_CupTable maps the table into the frame of the cup.
 ///        const DepthBounds d = depthBounds(cup, table, X_CupTable, {}, context);  // d.lower …
@@ -134,7 +134,6 @@
 #include "collision/queries/distance_obb4.h"
 #include "collision/queries/interference.h"
 #include "collision/queries/interference_obb4.h"
-#include "collision/world/body_depth.h"
 #include "collision/world/body_queries.h"
 #include "collision/world/rigid_scene.h"
 #include "collision/world/scene.h"

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/convex/polytope.h"
 #include "collision/core/rounding.h"
 
 namespace corridor {
@@ -24,19 +24,19 @@ ConvexSet::ConvexSet(const Triangle& triangle) : points(triangle) {}
 
 ConvexSet::ConvexSet(const Polytope& p) : points(p.vertices()), polytope(&p) {}
 
-ConvexSet::ConvexSet(const DobkinKirkpatrick& h)
-    : points(h.polytope().vertices()), polytope(&h.polytope()), hierarchy(&h) {}
+ConvexSet::ConvexSet(const Polytope& p, const VertexSearch& s)
+    : points(p.vertices()), polytope(&p), search(&s) {}
 
 std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) const {
   const bool cold = start == kCold;
   // After an overflow no bound holds, and callers test for it.
   if (!m.allFinite()) return cold ? 0 : start;
-  if (!hierarchy) return polytope->climb(cold ? 0 : start, m);
-  // From a vertex nearby, a few steps along edges are cheaper than the levels of the hierarchy.
+  if (!search) return polytope->climb(cold ? 0 : start, m);
+  // From a vertex nearby, a few steps along edges are cheaper than a search.
   constexpr int kFewSteps = 4;
   if (!cold)
     if (const auto top = polytope->climb(start, m, kFewSteps)) return *top;
-  return hierarchy->extreme(m);
+  return search->farthest(m);
 }
 
 void PosedSet::findBounds() const {

@@ -9,25 +9,38 @@
 
 namespace corridor {
 
-class DobkinKirkpatrick;
 class Polytope;
+
+/// A structure that finds the farthest vertex of a polytope along a direction: the hierarchy of
+/// Dobkin and Kirkpatrick (course/dobkin_kirkpatrick.h).
+class VertexSearch {
+ public:
+  virtual ~VertexSearch() = default;
+  /// Returns a vertex that is farthest along a finite direction, exactly.
+  virtual std::uint32_t farthest(const Vec3& direction) const = 0;
+
+ protected:
+  VertexSearch() = default;
+  VertexSearch(const VertexSearch&) = default;
+  VertexSearch& operator=(const VertexSearch&) = default;
+};
 
 /// A view of a convex part, a triangle or a polytope: a *core* swept by a sphere of radius `ball`.
 /// The core is the hull of `points`, or a cylinder, which is the segment between two points swept
 /// by a disc. The viewed object must outlive the view. Lengths in metres.
 ///
 /// Queries need the point that is farthest along a direction. For a part or a triangle they test
-/// all n points, in O(n). For a `Polytope` they climb along edges, in some O(√n). For a
-/// `DobkinKirkpatrick` they use its hierarchy, in O(log n). The choice changes no answer by more
-/// than the promised error.
+/// all n points, in O(n). For a `Polytope` they climb along edges, in some O(√n), or use its
+/// `VertexSearch`, if there is one. The choice changes no answer by more than the promised error.
 struct ConvexSet {
   ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
       : points(part.points), ball(part.radius) {
     if (part.flatEnds) sweepDisc();
   }
-  ConvexSet(const Triangle& triangle);           // NOLINT: a triangle is a convex set
-  ConvexSet(const Polytope& polytope);           // NOLINT: a polytope is a convex set
-  ConvexSet(const DobkinKirkpatrick& polytope);  // NOLINT: a polytope is a convex set
+  ConvexSet(const Triangle& triangle);  // NOLINT: a triangle is a convex set
+  ConvexSet(const Polytope& polytope);  // NOLINT: a polytope is a convex set
+  /// `search` belongs to the same polytope.
+  ConvexSet(const Polytope& polytope, const VertexSearch& search);
 
   static constexpr std::uint32_t kCold = ~std::uint32_t{0};
 
@@ -48,11 +61,11 @@ struct ConvexSet {
   }
 
   std::span<const Vec3> points;
-  double ball = 0;                               ///< radius of the sphere; 0: none
-  double disc = 0;                               ///< radius of the disc; 0: none
-  Vec3 axis = Vec3::Zero();                      ///< normal of the disc: unit, rounded
-  const Polytope* polytope = nullptr;            ///< null for parts and triangles
-  const DobkinKirkpatrick* hierarchy = nullptr;  ///< set only for a `DobkinKirkpatrick`; else null
+  double ball = 0;                       ///< radius of the sphere; 0: none
+  double disc = 0;                       ///< radius of the disc; 0: none
+  Vec3 axis = Vec3::Zero();              ///< normal of the disc: unit, rounded
+  const Polytope* polytope = nullptr;    ///< null for parts and triangles
+  const VertexSearch* search = nullptr;  ///< null: by hill climbing
 
  private:
   void sweepDisc();  ///< turns a capsule into a cylinder

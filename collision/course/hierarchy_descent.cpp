@@ -11,9 +11,9 @@
 #include <Eigen/Geometry>
 
 #include "collision/convex/convex_set.h"
-#include "collision/convex/polytope_shadow.h"
 #include "collision/convex/seidel-inl.h"
 #include "collision/core/rounding.h"
+#include "collision/course/polytope_shadow.h"
 
 namespace corridor {
 namespace {
@@ -99,23 +99,23 @@ Answer descendBoth(const Side& a, const Side& b, const Evaluate& evaluate) {
 
 /// An answer for a part of a and a part of b: the plane that proves it is at `heightA` along the
 /// normal for a, at `heightB` for b.
-struct Distance {
+struct PartsDistance {
   ConvexDistance distance;
   Vec3 normal = Vec3::Zero();
   double heightA = 0, heightB = 0;
 
   bool isFinal() const { return distance.distance == 0; }
-  bool isBetterThan(const Distance& other) const {
+  bool isBetterThan(const PartsDistance& other) const {
     return distance.distance < other.distance.distance;
   }
 };
-struct Depth {
+struct PartsDepth {
   double depth = 0;  ///< of the line along the direction in A − B; below 0 far beside it
   Vec3 normal = Vec3::Zero();
   double heightA = 0, heightB = 0;
 
   bool isFinal() const { return false; }
-  bool isBetterThan(const Depth& other) const { return depth > other.depth; }
+  bool isBetterThan(const PartsDepth& other) const { return depth > other.depth; }
 };
 
 /// Computes the least max n·a − min n·b over all normals n = d + u·e1 + w·e2 with |u|, |w| ≤ 2^20,
@@ -126,7 +126,7 @@ class DepthOfParts {
  public:
   explicit DepthOfParts(const Vec3& d) : d_(d), e1_(d.unitOrthogonal()), e2_(d.cross(e1_)) {}
 
-  Depth operator()(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  PartsDepth operator()(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     using namespace seidel;
     list_.clear();
     const Vec3 origin = a.front();
@@ -151,7 +151,7 @@ class DepthOfParts {
     Tight<4> tight;
     solve<double, 4>(bounds, std::span<const HalfSpace<double, 4>>(list_), {0, 0, -1, -1}, x, tight,
                      memory_);
-    Depth result;
+    PartsDepth result;
     result.normal = d_ + x[0] * e1_ + x[1] * e2_;
     result.heightA = -HUGE_VAL, result.heightB = HUGE_VAL;
     for (const Vec3& p : a) result.heightA = std::max(result.heightA, result.normal.dot(p));
@@ -189,14 +189,14 @@ ConvexDistance distanceByDescent(const DobkinKirkpatrick& a, const Transform& X_
   int count = 0;
   const auto evaluate = [&](const ConvexPart& partA, const ConvexPart& partB) {
     ++count;
-    Distance result;
+    PartsDistance result;
     result.distance = convexDistance(PosedSet(partA, X_WA), PosedSet(partB, X_WB));
     result.normal = result.distance.normal_W;
     result.heightA = result.normal.dot(result.distance.p_WA);
     result.heightB = result.normal.dot(result.distance.p_WB);
     return result;
   };
-  ConvexDistance best = descendBoth<Distance>({a, X_WA}, {b, X_WB}, evaluate).distance;
+  ConvexDistance best = descendBoth<PartsDistance>({a, X_WA}, {b, X_WB}, evaluate).distance;
   if (pieces) *pieces = count;
   best.lower = 0;
   if (best.distance > 0) {
@@ -219,7 +219,7 @@ DepthByDescent depthByDescent(const DobkinKirkpatrick& a, const Transform& X_WA,
     ++count;
     return depthOf(inWorld(partA, X_WA), inWorld(partB, X_WB));
   };
-  const Depth best = descendBoth<Depth>({a, X_WA}, {b, X_WB}, evaluate);
+  const PartsDepth best = descendBoth<PartsDepth>({a, X_WA}, {b, X_WB}, evaluate);
   if (pieces) *pieces = count;
   DepthByDescent result;
   const Vec3 n = best.normal.stableNormalized();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 
 namespace corridor {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 
 namespace corridor {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "collision/convex/polytope_shadow.h"
 #include "collision/convex/rational-inl.h"
 #include "collision/core/rounding.h"
+#include "collision/course/polytope_shadow.h"
 
 namespace corridor {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/course/linear_program.h"
 
 namespace corridor {

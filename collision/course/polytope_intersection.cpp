@@ -10,10 +10,10 @@
 #include <Eigen/LU>
 
 #include "collision/convex/convex_set.h"
-#include "collision/convex/polytope_shadow.h"
 #include "collision/core/rounding.h"
 #include "collision/course/exact_contact.h"
 #include "collision/course/matrix_game.h"
+#include "collision/course/polytope_shadow.h"
 
 namespace corridor {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/core/transform.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/course/outer_hierarchy.h"
 
 namespace corridor {

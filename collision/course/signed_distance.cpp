@@ -1,8 +1,8 @@
 #include "collision/course/signed_distance.h"
 
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/penetration.h"
 #include "collision/core/rounding.h"
+#include "collision/course/penetration.h"
 
 namespace corridor {
 

@@ -21,7 +21,7 @@ namespace {
 using Kind = Feature::Kind;
 
 /// One of the two polytopes in the walk.
-struct Body {
+struct PosedFeatures {
   const PolytopeFeatures& shape;
   Mat3 toOther;  ///< x ↦ toOther·x + shift maps this body's frame to the other body's
   Vec3 shift;
@@ -86,11 +86,11 @@ enum class Step { moved, closest, trapped };
 
 class Walk {
  public:
-  Walk(Body& a, Body& b) : a_(a), b_(b) {}
+  Walk(PosedFeatures& a, PosedFeatures& b) : a_(a), b_(b) {}
 
   Step step() {
     const bool swap = a_.at.kind > b_.at.kind;
-    Body &x = swap ? b_ : a_, &y = swap ? a_ : b_;  // x has the feature of lower dimension
+    PosedFeatures &x = swap ? b_ : a_, &y = swap ? a_ : b_;  // x has the feature of lower dimension
     if (x.at.kind == Kind::face) return lowered(x);
     if (x.at.kind == Kind::edge) return y.at.kind == Kind::edge ? edgeEdge() : edgeFace(x, y);
     if (y.at.kind == Kind::vertex) return vertexVertex();
@@ -100,14 +100,14 @@ class Walk {
  private:
   /// Replaces the first face by one of its corners if the walk starts with two faces. V-Clip does
   /// not have such a state.
-  static Step lowered(Body& x) {
+  static Step lowered(PosedFeatures& x) {
     x.goToVertex(x.shape.polytope().faces()[x.at.index][0]);
     return Step::moved;
   }
 
   Step vertexVertex() {
     for (const bool ofA : {true, false}) {
-      Body &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
+      PosedFeatures &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
       const Vec3 p = y.inOther(y.at.index);
       // If several edges lead closer, takes the edge along which the distance decreases fastest.
       std::uint32_t best = Clip::kNone;
@@ -125,7 +125,7 @@ class Walk {
     return Step::closest;
   }
 
-  static Step vertexEdge(Body& x, Body& y) {
+  static Step vertexEdge(PosedFeatures& x, PosedFeatures& y) {
     const Vec3 p = x.inOther(x.at.index);
     const std::uint32_t h = y.at.index, back = y.shape.twin(h);
     for (const std::uint32_t each : {h, back}) {
@@ -157,7 +157,7 @@ class Walk {
 
   Step edgeEdge() {
     for (const bool ofA : {true, false}) {
-      Body &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
+      PosedFeatures &x = ofA ? a_ : b_, &y = ofA ? b_ : a_;
       const std::uint32_t h = x.at.index, back = x.shape.twin(h);
       const Vec3 tail = y.inOther(y.shape.tail(y.at.index)),
                  head = y.inOther(y.shape.head(y.at.index)), u = head - tail;
@@ -195,7 +195,7 @@ class Walk {
     return Step::closest;
   }
 
-  static Step edgeFace(Body& x, Body& y) {
+  static Step edgeFace(PosedFeatures& x, PosedFeatures& y) {
     const std::uint32_t f = y.at.index, h = x.at.index;
     const Vec3 tail = x.inOther(x.shape.tail(h)), head = x.inOther(x.shape.head(h));
     Clip clip;
@@ -228,7 +228,7 @@ class Walk {
     return Step::moved;
   }
 
-  static Step vertexFace(Body& x, Body& y) {
+  static Step vertexFace(PosedFeatures& x, PosedFeatures& y) {
     const std::uint32_t f = y.at.index;
     const Vec3 p = x.inOther(x.at.index);
     // The edge whose plane the vertex violates most contains the closest point of the face.
@@ -273,9 +273,9 @@ class Walk {
     return Clip::kNone;
   }
 
-  static std::uint32_t first(const Body& x) { return x.shape.first(x.at.index); }
-  static std::uint32_t last(const Body& x) { return x.shape.first(x.at.index + 1); }
-  static Vec3 edge(const Body& x, std::uint32_t h) {
+  static std::uint32_t first(const PosedFeatures& x) { return x.shape.first(x.at.index); }
+  static std::uint32_t last(const PosedFeatures& x) { return x.shape.first(x.at.index + 1); }
+  static Vec3 edge(const PosedFeatures& x, std::uint32_t h) {
     return x.shape.vertex(x.shape.head(h)) - x.shape.vertex(x.shape.tail(h));
   }
 
@@ -297,11 +297,11 @@ class Walk {
   }
 
  private:
-  Body &a_, &b_;
+  PosedFeatures &a_, &b_;
 };
 
 /// Returns the GJK simplex of at most three corners that contains the closest points of a pair.
-ConvexCache simplexOf(const Body& a, const Body& b) {
+ConvexCache simplexOf(const PosedFeatures& a, const PosedFeatures& b) {
   std::array<std::uint32_t, 3> memoryA{}, memoryB{};
   const auto p = a.shape.corners(a.at, memoryA), q = b.shape.corners(b.at, memoryB);
   ConvexCache cache;
@@ -341,8 +341,8 @@ double distanceOf(const ConvexCache& simplex, const PosedSet& a, const PosedSet&
 }
 
 /// Sets `at` of both bodies to the features that contain the closest points of a GJK simplex.
-void goTo(const ConvexCache& simplex, Body& a, Body& b) {
-  const auto take = [&](Body& body, auto member) {
+void goTo(const ConvexCache& simplex, PosedFeatures& a, PosedFeatures& b) {
+  const auto take = [&](PosedFeatures& body, auto member) {
     std::array<std::uint32_t, 4> corners{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i) {
@@ -361,7 +361,7 @@ void goTo(const ConvexCache& simplex, Body& a, Body& b) {
 /// pair, so a walk that comes back to a pair would never end. R. Brent's method (1980) notices such
 /// a cycle: it stores the pair after 1, 2, 4, 8, … steps, and compares each pair with the pair
 /// stored most recently.
-Step walkFrom(Body& a, Body& b, int& steps) {
+Step walkFrom(PosedFeatures& a, PosedFeatures& b, int& steps) {
   Walk walk(a, b);
   const std::size_t most = a.shape.halfEdges() + b.shape.halfEdges();
   Feature keptA = a.at, keptB = b.at;
@@ -393,7 +393,8 @@ ClosestFeatures closestFeatures(const PolytopeFeatures& a, const Transform& X_WA
   }
   const Mat3 m_AB = X_WA.m.transpose() * X_WB.m;
   const Vec3 t_AB = X_WA.m.transpose() * (X_WB.t - X_WA.t);
-  Body bodyA{a, m_AB.transpose(), -(m_AB.transpose() * t_AB), pair.a}, bodyB{b, m_AB, t_AB, pair.b};
+  PosedFeatures bodyA{a, m_AB.transpose(), -(m_AB.transpose() * t_AB), pair.a},
+      bodyB{b, m_AB, t_AB, pair.b};
   const bool rigid = isRotation(X_WA.m) && isRotation(X_WB.m) && t_AB.allFinite();
   if (pair.cold || !a.has(pair.a) || !b.has(pair.b)) {
     const Vec3 toB = m_AB * b.polytope().center() + t_AB - a.polytope().center();

@@ -100,7 +100,7 @@ RigidMotion RigidMotion::translation(const Transform& from, const Vec3& delta) {
   m.setRotation(from.m, Vec3::Zero(), 0, 0);
   // The error of the computed position is below 7uP, with P as defined below: t·δ and from.t + t·δ
   // are at most P, and each is rounded once. Another 16uP are for a caller that has rounded
-  // `from.t` from a sum of terms below P (world/body_depth.cpp). The matrix itself has no error
+  // `from.t` from a sum of terms below P (course/body_depth.cpp). The matrix itself has no error
   // along the path. But the bounds of the bodies assume a rotation. A matrix that does not mirror
   // differs from a rotation by at most 3·defect.
   const double P = from.t.cwiseAbs().maxCoeff() + delta.cwiseAbs().maxCoeff();

@@ -13,16 +13,16 @@
 #include <vector>
 
 #include "collision/convex/convex_polygon.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/course/linear_program.h"
 #include "collision/course/plane_separation.h"
 #include "collision/course/polygon_intersection.h"
 #include "collision/course/query_timing.h"
 #include "collision/course/separating_plane.h"
+#include "collision/course/sweep_and_prune.h"
 #include "collision/geometry/mesh_file.h"
-#include "collision/hierarchy/sweep_and_prune.h"
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
 #include "planner/app/other_program.h"

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "collision/course/body_depth.h"
 #include "collision/course/test_costs.h"
 #include "collision/geometry/triangle_mesh.h"
 #include "collision/hierarchy/tree_kinds.h"
 #include "collision/motion/edge_method.h"
 #include "collision/queries/distance.h"
-#include "collision/world/body_depth.h"
 #include "planner/query/query_poses.h"
 
 /// The queries of `corridor query`, and batches of queries that are timed. Volumes and overlap

@@ -22,7 +22,7 @@
 
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/course/separating_axes.h"
 #include "collision/course/vclip.h"
 #include "tests/benchmark/arguments.h"

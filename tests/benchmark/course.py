@@ -87,7 +87,7 @@ def number(value):
 
 
 def page(rows, stored):
-    text = (HERE / "course/head.md").read_text()
+    text = (HERE / "course/head.txt").read_text()
     for section in dict.fromkeys(row["section"] for row in rows):
         text += f"\n## {section}\n\n| topic | code | command | claim | rule | figures | verdict |\n|---|---|---|---|---|---|---|\n"
         for row in (r for r in rows if r["section"] == section):
@@ -103,7 +103,7 @@ def page(rows, stored):
             cells = [f"{row['topic']} ({', '.join(row['topics'])})", row["code"], commands, row["claim"],
                      f"`{short(row['rule'])}`", listed, "holds" if holds(row, figures) else "does not hold"]
             text += "| " + " | ".join(cells) + " |\n"
-    return text + "\n" + (HERE / "course/tail.md").read_text()
+    return text + "\n" + (HERE / "course/tail.txt").read_text()
 
 
 def shown(command):
@@ -122,7 +122,7 @@ def main():
     arguments = parser.parse_args()
     rows = tomllib.loads(ROWS.read_text())["row"]
     missing = set(TOPICS) - {topic for row in rows for topic in row["topics"]} - set(
-        re.findall(r"\b[ABC]\d+\b", (HERE / "course/tail.md").read_text()))
+        re.findall(r"\b[ABC]\d+\b", (HERE / "course/tail.txt").read_text()))
     if missing:
         sys.exit(f"{ROWS}: no row has the topics {', '.join(sorted(missing))}")
     if arguments.inputs:

@@ -24,6 +24,19 @@ def torus(rings, sides, bend=0.0):
     return vertices, faces
 
 
+def sphere(rings, radius):
+    """A sphere of rings of quadrilaterals, whose corners are on the surface."""
+    vertices, faces = [], []
+    for i in range(rings + 1):
+        for k in range(2 * rings):
+            u, v = math.pi * i / rings, math.pi * k / rings
+            vertices.append((radius * math.sin(u) * math.cos(v), radius * math.sin(u) * math.sin(v), radius * math.cos(u)))
+            if i < rings:
+                a, b = i * 2 * rings + k, i * 2 * rings + (k + 1) % (2 * rings)
+                faces += [(a, b, b + 2 * rings), (a, b + 2 * rings, a + 2 * rings)]
+    return vertices, faces
+
+
 def direction(source):
     while True:
         v = [source.gauss(0, 1) for _ in range(3)]
@@ -64,6 +77,7 @@ def make_inputs(folder: pathlib.Path):
     (folder / "hulls.txt").write_text("".join(map(line, poses(source, 200, 1.6, 2.4))))
     (folder / "apart.txt").write_text("".join(map(line, poses(source, 100, 2.05, 2.05))))
     (folder / "overlap.txt").write_text("".join(map(line, poses(source, 100, 1.95, 1.95))))
+    (folder / "turns.txt").write_text("".join(line(rotation(source) + [0, 0, 0]) for _ in range(60)))
     still = [1, 0, 0, 0, 1, 0, 0, 0, 1]
     (folder / "steps.txt").write_text("".join(line(still + [2.6 * math.cos(a), 2.6 * math.sin(a), 0.1])
                                               for a in (0.01 * i for i in range(300))))

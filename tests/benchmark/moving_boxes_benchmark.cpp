@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "collision/core/quantiles.h"
-#include "collision/hierarchy/sweep_and_prune.h"
+#include "collision/course/sweep_and_prune.h"
 #include "tests/benchmark/arguments.h"
 
 namespace corridor {

@@ -34,10 +34,10 @@
 
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
-#include "collision/convex/penetration.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/course/hierarchy_descent.h"
 #include "collision/course/outer_hierarchy.h"
+#include "collision/course/penetration.h"
 #include "collision/course/plane_separation.h"
 #include "collision/course/polygon_intersection.h"
 #include "collision/course/polytope_intersection.h"

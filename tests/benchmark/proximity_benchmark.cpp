@@ -128,6 +128,13 @@ void sweep(const Options& o, std::mt19937_64& random) {
       addLine(us, name, times);
     }
     if (!o.out.empty()) {
+      // Guide lines: N_v in proportion to 1/gap, and to its square.
+      for (const int slope : {1, 2}) {
+        std::vector<PlotPoint> guide;
+        for (const double gap : gaps)
+          guide.push_back({1 / gap, 10 * std::pow(gaps[0] / gap, slope)});
+        addLine(nv, "slope " + std::to_string(slope), guide);
+      }
       writePlot(nv, o.out);
       writePlot(us, o.out);
     }

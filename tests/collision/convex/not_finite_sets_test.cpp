@@ -3,9 +3,9 @@
 
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/penetration.h"
 #include "collision/convex/simple_polygon.h"
 #include "collision/course/exact_contact.h"
+#include "collision/course/penetration.h"
 #include "collision/course/plane_separation.h"
 #include "collision/course/polytope_intersection.h"
 #include "collision/course/separating_axes.h"

@@ -9,8 +9,8 @@
 
 #include "collision/convex/convex_contact.h"
 #include "collision/convex/convex_distance.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/core/rounding.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "tests/collision/convex/touching_pairs.h"
 #include "tests/support/support.h"
 

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "collision/convex/penetration.h"
+#include "collision/course/penetration.h"
 #include "tests/collision/convex/random_points.h"
 #include "tests/support/support.h"
 

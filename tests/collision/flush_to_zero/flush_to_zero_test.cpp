@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "collision/convex/convex_contact.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
 #include "collision/core/floating_point.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/course/exact_contact.h"
 #include "collision/course/linear_program.h"
 #include "collision/course/outer_hierarchy.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/collision.h"
+#include "collision/course/body_depth.h"
 #include "tests/support/meshes.h"
 
 namespace corridor {

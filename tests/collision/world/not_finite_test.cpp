@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/world/body_depth.h"
+#include "collision/course/body_depth.h"
 #include "collision/world/body_queries.h"
 #include "collision/world/rigid_scene.h"
 #include "tests/collision/motion/bodies.h"

@@ -1,4 +1,4 @@
-#include "collision/convex/penetration.h"
+#include "collision/course/penetration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/convex/convex_contact.h"
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "tests/collision/convex/long_double_sets.h"
 #include "tests/collision/convex/touching_pairs.h"
 #include "tests/support/support.h"

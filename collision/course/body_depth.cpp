@@ -1,11 +1,11 @@
-#include "collision/world/body_depth.h"
+#include "collision/course/body_depth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "collision/convex/penetration.h"
 #include "collision/core/rounding.h"
+#include "collision/course/penetration.h"
 #include "collision/hierarchy/traverse.h"
 #include "collision/motion/certify_motion.h"
 #include "collision/motion/rigid_motion.h"

@@ -43,7 +43,7 @@ struct DepthBounds {
 ///
 /// The exact depth of bodies that are not convex is costly: it is a distance on the Minkowski sum,
 /// which may have n⁶ faces. The lower bound comes from one pair of primitives at a time
-/// (`penetration` in convex/penetration.h). The upper bound comes from the first contact of b when
+/// (`penetration` in course/penetration.h). The upper bound comes from the first contact of b when
 /// b approaches a from far away along a direction (`certifyMotion`). Therefore b may be deeper in a
 /// than `lower`, and may leave a by a translation that is shorter than `upper`.
 /// @param X_AB  the map from b's frame to a's.

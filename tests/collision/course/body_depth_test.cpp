@@ -1,7 +1,7 @@
 // Tests of the bounds of the penetration depth, by closed forms and by the definition of the
 // bounds: no translation by less than the lower bound separates the bodies, and the reported
 // translation by the upper bound does.
-#include "collision/world/body_depth.h"
+#include "collision/course/body_depth.h"
 
 #include <cmath>
 #include <random>

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/convex/convex_set.h"
 #include "collision/convex/polytope.h"
 
 namespace corridor {
@@ -21,7 +22,7 @@ namespace corridor {
 /// Source: D. P. Dobkin, D. G. Kirkpatrick, A linear algorithm for determining the separation of
 /// convex polyhedra, Journal of Algorithms 6 (1985), and Determining the separation of preprocessed
 /// polyhedra: a unified approach, ICALP 1990.
-class DobkinKirkpatrick {
+class DobkinKirkpatrick final : public VertexSearch {
  public:
   static constexpr int kMostNeighbours = 8;
 
@@ -29,6 +30,9 @@ class DobkinKirkpatrick {
   explicit DobkinKirkpatrick(Polytope polytope);
 
   const Polytope& polytope() const { return polytope_; }
+  /// The polytope as a convex set, whose farthest vertices the hierarchy finds in O(log n).
+  operator ConvexSet() const { return {polytope_, *this}; }  // NOLINT: it is a convex set
+  std::uint32_t farthest(const Vec3& direction) const override { return extreme(direction); }
   /// The number of polytopes, P_0 and the simplex included.
   std::size_t levels() const { return vertexCounts_.size(); }
   /// The number of vertices of P_i.

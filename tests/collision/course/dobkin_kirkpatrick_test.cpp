@@ -1,4 +1,4 @@
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 
 #include <algorithm>
 #include <cmath>

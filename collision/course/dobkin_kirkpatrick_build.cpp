@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 #include "collision/predicates/orientation.h"
 
 namespace corridor {

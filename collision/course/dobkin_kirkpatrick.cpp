@@ -1,12 +1,12 @@
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "collision/convex/polytope_shadow.h"
 #include "collision/core/rounding.h"
+#include "collision/course/polytope_shadow.h"
 #include "collision/predicates/orientation.h"
 
 namespace corridor {

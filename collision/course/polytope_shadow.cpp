@@ -1,4 +1,4 @@
-#include "collision/convex/polytope_shadow.h"
+#include "collision/course/polytope_shadow.h"
 
 #include <algorithm>
 #include <cmath>

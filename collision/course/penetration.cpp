@@ -1,4 +1,4 @@
-#include "collision/convex/penetration.h"
+#include "collision/course/penetration.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "collision/hierarchy/sweep_and_prune.h"
+#include "collision/course/sweep_and_prune.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace corridor {
 namespace {
 
-BoundingBox box(const Vec3& lower, const Vec3& upper) {
+BoundingBox boundingBox(const Vec3& lower, const Vec3& upper) {
   BoundingBox result;
   result.lower = lower;
   result.upper = upper;
@@ -59,7 +59,7 @@ TEST(SweepAndPrune, AgreesWithBruteForce) {
     const auto randomBox = [&] {
       const Vec3 lower(real(), real(), real());
       const double size = grid ? static_cast<double>(random() % 4) : 0.4 * real();
-      return box(lower, lower + Vec3(size, random() % 3 ? size : 0.0, size));
+      return boundingBox(lower, lower + Vec3(size, random() % 3 ? size : 0.0, size));
     };
     std::vector<BoundingBox> boxes(random() % 40);
     for (BoundingBox& each : boxes) each = randomBox();
@@ -93,7 +93,7 @@ TEST(SweepAndPrune, OnlyWhatMovedIsVisited) {
   std::vector<BoundingBox> boxes;
   for (int i = 0; i < 10'000; ++i) {
     const Vec3 lower(2.0 * i, 2.0 * (i * 7919 % 10'000), 2.0 * (i * 104'729 % 10'000));
-    boxes.push_back(box(lower, lower + Vec3(1.5, 1.5, 1.5)));
+    boxes.push_back(boundingBox(lower, lower + Vec3(1.5, 1.5, 1.5)));
   }
   SweepAndPrune sweep(boxes);
   const std::uint64_t before = sweep.swaps();
@@ -105,9 +105,9 @@ TEST(SweepAndPrune, OnlyWhatMovedIsVisited) {
 }
 
 TEST(SweepAndPrune, InvalidBoxesAndItemsAreRefused) {
-  const std::vector<BoundingBox> one = {box({0, 0, 0}, {1, 1, 1})};
-  const std::vector<BoundingBox> wrong = {box({0, 2, 0}, {1, 1, 1})},
-                                 none = {box({0, 0, 0}, {1, std::nan(""), 1})};
+  const std::vector<BoundingBox> one = {boundingBox({0, 0, 0}, {1, 1, 1})};
+  const std::vector<BoundingBox> wrong = {boundingBox({0, 2, 0}, {1, 1, 1})},
+                                 none = {boundingBox({0, 0, 0}, {1, std::nan(""), 1})};
   EXPECT_THROW(SweepAndPrune{wrong}, std::invalid_argument);
   EXPECT_THROW(SweepAndPrune{none}, std::invalid_argument);
   SweepAndPrune sweep(one);

@@ -1,4 +1,4 @@
-#include "collision/hierarchy/sweep_and_prune.h"
+#include "collision/course/sweep_and_prune.h"
 
 #include <algorithm>
 #include <stdexcept>

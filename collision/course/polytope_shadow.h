@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "collision/convex/dobkin_kirkpatrick.h"
+#include "collision/course/dobkin_kirkpatrick.h"
 
 namespace corridor {
 
