@@ -33,7 +33,7 @@ SECTIONS = {
     "Fronts of meshes in small steps": ["fronts"],
     "Bounding volumes under one traversal": ["volume_trees_bunny_torus", "volume_trees_link_box"],
     "Bounding volumes in seven scenes": ["scenes", "scenes_ratios"],
-    "What a query costs": ["inspect_cost"],
+    "What a query costs": ["inspect_cost", "time_model"],
     "Parallel close proximity": ["proximity_slopes", "proximity_smallest_gap", "proximity_placements"],
     "Scaling": ["scaling", "scaling_growth"],
     "Refitting": ["refit"],

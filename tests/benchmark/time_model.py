@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Tests T = N_v·C_v + N_p·C_p in the scenes of scenes.py and in parallel close proximity. Prints CSV: predicted over
-measured time, with the costs C_v and C_p that are measured test by test (*alone*), and with a term for the traversal
-that was fitted in the scene before (*elsewhere*).
+measured time, with the costs C_v and C_p that are measured test by test (*alone*), and with two terms more: the fixed
+cost of a query, measured with the meshes far apart, and the traversal's share of a volume test, fitted in the scene
+before (*elsewhere*). N_v and N_p are those of the poses whose times are predicted.
 
     tests/benchmark/time_model.py | tests/benchmark/results.py --store time_model --command tests/benchmark/time_model.py
 """
+import csv
+import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -23,21 +25,19 @@ SCENES = {
     "hook in a maze": ("problems/hook_maze/walls.obj", "robots/hook/hook.obj"),
     "two forearms": ("robots/arm6/forearm.stl", "robots/arm6/forearm.stl"),
     "two wrinkled tori": ("a.obj", "b.obj"),
-    "spheres, gap 0.02": ("inner.obj", "outer.obj"),
+    "spheres at gap 0.02": ("inner.obj", "outer.obj"),
 }
 VOLUMES = ("obb-binary", "aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26", "ellipsoid", "hull")
 
 
-def rows_of(files, poses):
-    done = subprocess.run([ROOT / "build/release/corridor", "inspect", files[0], "--against", files[1], *poses], check=True,
-                          capture_output=True, text=True)
-    contacts = int(re.search(r"poses: .*?(\d+) contacts", done.stdout)[1])
-    rows = {}
-    for line in done.stdout.splitlines():
-        words = line.replace(",", "").split()
-        if words and words[0] in VOLUMES:
-            rows[words[0]] = [0 if word == "-" else float(word) for word in words[1:9]]
-    return contacts, rows
+def corridor(*words):
+    return subprocess.run([ROOT / "build/release/corridor", *words], check=True, capture_output=True, text=True).stdout
+
+
+def counts_of(files, poses, volume):
+    """Returns N_v and N_p at each pose."""
+    rows = csv.DictReader(corridor("query", *files, "--poses", poses, "--volume", volume).splitlines())
+    return [(int(row["bv_tests"]), int(row["triangle_tests"])) for row in rows]
 
 
 print("scene,contacts,volume,N_v,N_p,alone,elsewhere")
@@ -52,12 +52,21 @@ with tempfile.TemporaryDirectory() as name:
         poses = folder / "turns.txt"
         if not scene.startswith("spheres"):
             poses = folder / "grid.txt"
-            subprocess.run([ROOT / "build/release/corridor", "query", *files, "--grid", "6x6x6", "--rotations", "2",
-                            "--save-poses", str(poses)], check=True, capture_output=True)
-        contacts, rows = rows_of(files, ["--poses", str(poses)])
-        for volume, (n_v, n_p, _, c_v, c_p, traversal, _, measured) in rows.items():
-            alone = (n_v * c_v + n_p * c_p) / measured
-            elsewhere = (n_v * (c_v + before[volume]) + n_p * c_p) / measured if volume in before else None
-            print(f"{scene},{contacts},{volume},{n_v:.4g},{n_p:.4g},{alone:.2f},"
-                  f"{'' if elsewhere is None else format(elsewhere, '.2f')}", flush=True)
-            before[volume] = traversal
+            corridor("query", *files, "--grid", "6x6x6", "--rotations", "2", "--save-poses", poses)
+        # `inspect` leaves out poses at which the root boxes are apart, and predicts every second one of the others.
+        roots = counts_of(files, poses, "obb-binary")
+        predicted = [i for i, (n_v, n_p) in enumerate(roots) if n_v > 1 or n_p > 0][1::2]
+        found = json.loads(corridor("inspect", files[0], "--against", files[1], "--poses", poses, "--json"))
+        for row in found["volumes"]:
+            volume = row["volume"]
+            if volume not in VOLUMES:
+                continue
+            counts = counts_of(files, poses, volume)
+            n_v, n_p = (sum(counts[i][k] for i in predicted) / len(predicted) for k in (0, 1))
+            tests = n_v * row["bv_test_ns"] + n_p * (row["triangle_test_ns"] or 0)
+            alone = f"{tests / row['measured_ns']:.2f}"
+            elsewhere = ""
+            if volume in before:
+                elsewhere = f"{(row['call_ns'] + tests + n_v * before[volume]) / row['measured_ns']:.2f}"
+            print(f"{scene},{found['hits']},{volume},{n_v:.4g},{n_p:.4g},{alone},{elsewhere}", flush=True)
+            before[volume] = row["traversal_ns"]

@@ -35,9 +35,14 @@ def below(least, mean, most, bound):
     return HOLDS if most < bound else DEPENDS if mean < bound else FAILS
 
 
+def predicts(ratio):
+    """A predicted time over the measured one."""
+    return 0.8 <= ratio <= 1.25
+
+
 def model(ratios):
-    """Predicted times over measured ones. 0.8 to 1.25 is right up to the noise; *depends* needs half of them right."""
-    good = [0.8 <= ratio <= 1.25 for ratio in ratios]
+    """Predicted times over measured ones: right up to the noise; *depends* needs half of them right."""
+    good = [predicts(ratio) for ratio in ratios]
     return HOLDS if all(good) else DEPENDS if 2 * sum(good) >= len(good) else FAILS
 
 
