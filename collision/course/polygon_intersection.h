@@ -50,11 +50,11 @@ struct PolygonPruning {
 ///   meets Q if and only if P meets the intersection of the half-planes of this chain. All edges
 ///   outside of this chain are pruned.
 ///
-/// Each step prunes half of a chain, so P or Q loses half of what is left. The steps are done in
-/// double. The answer is then proved exactly, by its witness. "Disjoint" is proved by the extreme
-/// vertices along the separating direction, "intersects" by linear programming with the vertices
-/// that the algorithm has used. If this proof fails, separatingPlane (separating_plane.h) decides,
-/// in O(n).
+/// Each step prunes half of a chain, so P or Q loses half of what is left. (The first step of Q
+/// leaves a chain that turns by less than a quarter turn.) The steps are done in double. The answer
+/// is then proved exactly, by its witness. "Disjoint" is proved by the extreme vertices along the
+/// separating direction, "intersects" by linear programming with the vertices that the algorithm
+/// has used. If this proof fails, separatingPlane (separating_plane.h) decides, in O(n).
 /// @param trace  if not null, receives the remaining parts after each step.
 PolygonIntersection intersection(const ConvexPolygon& p, const ConvexPolygon& q,
                                  std::vector<PolygonPruning>* trace = nullptr);

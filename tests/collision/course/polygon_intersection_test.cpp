@@ -147,7 +147,7 @@ bool partsMeet(const ConvexPolygon& p, const ConvexPolygon& q, const PolygonPrun
 }
 
 /// Tests the invariant of the algorithm: after each step, the remaining part of P meets the
-/// remaining part of Q if and only if P meets Q. Each step removes half of a chain.
+/// remaining part of Q if and only if P meets Q.
 TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
   RandomPolygons random(test::testSeed(44));
   const int pairs = test::casesOf(50, 3'000);
@@ -173,6 +173,55 @@ TEST(PolygonIntersection, EachPruningKeepsTheAnswer) {
   }
   std::cout << steps << " steps in " << pairs << " pairs\n";
   EXPECT_GT(steps, static_cast<std::size_t>(pairs));
+}
+
+/// Tests what the header says about each step: what it prunes of one polygon cannot decide,
+/// whatever the other polygon has lost; and it halves a chain. (The first step of Q leaves the
+/// edges between two extreme vertices along coordinate axes instead, which turn by less than a
+/// quarter turn.) A chain of P is inside P, and a chain of half-planes contains Q. So the chain of
+/// P could only miss Q, which P meets, and the chain of Q could only meet P, which is disjoint from
+/// Q.
+TEST(PolygonIntersection, EachStepPrunesHalfAndWhatIsPrunedCannotDecide) {
+  RandomPolygons random(test::testSeed(47));
+  const int pairs = test::casesOf(500, 10'000), exact = test::casesOf(30, 1'000);
+  int stepsP = 0, stepsQ = 0, exactP = 0, exactQ = 0;
+  for (int n = 0; n < pairs; ++n) {
+    const auto p = random.polygon(3 + random.below(40), 3, {0, 0});
+    const double angle = M_PI * random.real(), gap = 2.05 - 0.3 * std::abs(random.real());
+    const auto q =
+        random.polygon(3 + random.below(40), 3, gap * Vec2(std::cos(angle), std::sin(angle)));
+    if (!p || !q) continue;
+    std::vector<PolygonPruning> trace;
+    const bool meet = intersection(*p, *q, &trace).intersects;
+    const PolygonPruning whole{{0, p->size()}, {0, q->size()}};
+    PolygonPruning before = whole;
+    for (const PolygonPruning& left : trace) {
+      if (left.q == before.q) {
+        ++stepsP;
+        EXPECT_LE(left.p[1] - left.p[0], (before.p[1] - before.p[0] + 1) / 2) << "pair " << n;
+        if (meet && exactP++ < exact) {
+          EXPECT_TRUE(partsMeet(*p, *q, {left.p, whole.q})) << "pair " << n;
+        }
+      } else {
+        ++stepsQ;
+        if (before.q == whole.q) {
+          const Vec2 d = (*q)[left.q[0] + 1] - (*q)[left.q[0]],
+                     e = (*q)[left.q[1] + 1] - (*q)[left.q[1]];
+          EXPECT_GT(d.dot(e), 0) << "pair " << n;
+        } else {
+          EXPECT_LE(left.q[1] - left.q[0], (before.q[1] - before.q[0] + 1) / 2) << "pair " << n;
+        }
+        if (!meet && exactQ++ < exact) {
+          EXPECT_FALSE(partsMeet(*p, *q, {whole.p, left.q})) << "pair " << n;
+        }
+      }
+      before = left;
+    }
+  }
+  std::cout << stepsP << " steps of P and " << stepsQ << " steps of Q in " << pairs << " pairs; "
+            << exactP << " and " << exactQ << " could decide\n";
+  EXPECT_GE(exactP, exact);
+  EXPECT_GE(exactQ, exact);
 }
 
 /// The number of steps grows like the logarithm of the number of vertices, even if the polygons
