@@ -36,9 +36,9 @@ struct ConvexDistance {
 /// requested error, the search continues in double-double, from the simplex found. With the default
 /// options this happens for nearly all sets closer than a hundredth of their size. For curved
 /// surfaces, every second search direction comes from a Newton step. Cost: a mean of 2 to 5 rounds
-/// in double for parts of few points (2 to 20 with a cylinder), 7 to 10 for polytopes of 100 to 10^5
-/// vertices, and less than 2 rounds in double-double. No test needed more than
-/// 100 rounds, at gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
+/// in double for parts of few points (2 to 20 with a cylinder), 7 to 10 for polytopes of 100 to
+/// 10^5 vertices, and less than 2 rounds in double-double. No test needed more than 100 rounds, at
+/// gaps down to 10^-13; `tests/collision/convex/gjk_test.cpp` prints the numbers.
 /// @param relative, absolute  allowed error, ≥ 0; `absolute` in metres. If both are 0, the accuracy
 /// is the best that the guarantees above give.
 /// @param cache  if not null, the cache of the same two sets (convex_cache.h).
