@@ -2,7 +2,8 @@
 """Writes collision/COURSE.md: the topics of the course, each with its code, a command, a claim, a rule, and the verdict.
 
     tests/benchmark/course.py                   runs every command, stores the figures, and writes the page
-    tests/benchmark/course.py --only "bottom-up" runs the rows whose topic contains this text, and prints their outputs
+    tests/benchmark/course.py --only "bottom-up" runs the rows whose topic contains this text, and prints their outputs;
+                                                 the page is written if all other rows have figures
     tests/benchmark/course.py --write           writes the page from the stored figures
     tests/benchmark/course.py --check           fails if the page is not what rows and figures give, or a topic is missing
     tests/benchmark/course.py --inputs FOLDER   makes the inputs of the commands, to run them by hand
@@ -75,9 +76,11 @@ def figures_of(row, folder, show=False):
 
 
 def holds(row, figures):
-    """Evaluates the rule of a row, an expression of numbers and names of figures."""
-    expression = re.sub(r"[a-z]\.[a-z_0-9]+", lambda name: repr(figures[name.group()]), row["rule"])
-    if not re.fullmatch(r"[0-9.e+\-*/()<>=!, \[\]a-z]+", expression):
+    """Evaluates the rule of a row, an expression of numbers and names of figures. @throws KeyError for the name of a figure
+    that is not there, ValueError for other text."""
+    expression = re.sub(r"\b[a-z]\.[a-z_0-9]+", lambda name: repr(figures[name.group()]), row["rule"])
+    words = set(re.findall(r"\b[A-Za-z_]\w*", expression))
+    if not re.fullmatch(r"[\w.+\-*/()<>=!, ]+", expression) or words - {"and", "or", "not", "max", "min"}:
         raise ValueError(f"{row['topic']}: {expression} is no rule")
     return bool(eval(expression, {"__builtins__": {}}, {"max": max, "min": min}))  # pylint: disable=eval-used
 
@@ -130,6 +133,8 @@ def main():
         return make_inputs(arguments.inputs)
     stored = json.loads(FIGURES.read_text()) if FIGURES.exists() else {}
     if not (arguments.write or arguments.check):
+        if arguments.only and not any(arguments.only in row["topic"] for row in rows):
+            sys.exit(f"--only: no topic contains {arguments.only}")
         with tempfile.TemporaryDirectory() as folder:
             make_inputs(pathlib.Path(folder))
             for row in rows:
@@ -140,6 +145,10 @@ def main():
                       f"{stored[row['topic']]}", flush=True)
         stored = {row["topic"]: stored[row["topic"]] for row in rows if row["topic"] in stored}
         FIGURES.write_text(json.dumps(stored, indent=1, ensure_ascii=False) + "\n")
+    unknown = [row["topic"] for row in rows if row["topic"] not in stored]
+    if unknown:
+        message = f"{PAGE.name} is not written: no figures are stored for the rows {'; '.join(unknown)}"
+        return print(message) if arguments.only else sys.exit(f"{message}; run tests/benchmark/course.py --only TEXT")
     text = page(rows, stored)
     if arguments.check:
         sys.exit(0 if PAGE.read_text() == text else f"{PAGE.name} is not what its rows and figures give; run "
