@@ -34,7 +34,7 @@ SECTIONS = {
     "Bounding volumes under one traversal": ["volume_trees_bunny_torus", "volume_trees_link_box"],
     "Bounding volumes in seven scenes": ["scenes", "scenes_ratios"],
     "What a query costs": ["inspect_cost", "time_model"],
-    "Parallel close proximity": ["proximity_slopes", "proximity_smallest_gap", "proximity_placements"],
+    "Parallel close proximity": ["proximity_slopes", "proximity_smallest_gap", "proximity_placements", "thickness"],
     "Scaling": ["scaling", "scaling_growth"],
     "Refitting": ["refit"],
     "Run time against error": ["edge_error_closed_forms", "edge_error_cubicles", "edge_error_twisted_tubes"],
