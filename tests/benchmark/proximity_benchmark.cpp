@@ -87,6 +87,19 @@ const std::vector<std::pair<std::string, Ask>>& volumes() {
   return all;
 }
 
+/// Adds a dashed line of this slope, from `first` at the plot's largest gap up to the largest N_v.
+void addGuide(Plot& plot, int slope, double first) {
+  double most = 0;
+  for (const PlotSeries& series : plot.series)
+    for (const PlotPoint& p : series.points) most = std::max(most, p.y);
+  PlotSeries guide{"slope " + std::to_string(slope), 10, PlotSeries::Style::dashes, {}};
+  const std::vector<PlotPoint> points = plot.series[0].points;
+  for (const PlotPoint& p : points)
+    if (const double y = first * std::pow(p.x / points[0].x, slope); y <= 2 * most)
+      guide.points.push_back({p.x, y});
+  plot.series.push_back(guide);
+}
+
 struct Options {
   std::filesystem::path out;
   std::vector<double> frequencies;
@@ -128,13 +141,8 @@ void sweep(const Options& o, std::mt19937_64& random) {
       addLine(us, name, times);
     }
     if (!o.out.empty()) {
-      // Guide lines: N_v in proportion to 1/gap, and to its square.
-      for (const int slope : {1, 2}) {
-        std::vector<PlotPoint> guide;
-        for (const double gap : gaps)
-          guide.push_back({1 / gap, 10 * std::pow(gaps[0] / gap, slope)});
-        addLine(nv, "slope " + std::to_string(slope), guide);
-      }
+      addGuide(nv, 1, 200);     // below the curves of boxes
+      addGuide(nv, 2, 30'000);  // above the curve of spheres
       writePlot(nv, o.out);
       writePlot(us, o.out);
     }
