@@ -290,6 +290,38 @@ PairMargins::PairMargins(std::vector<double> metres) : metres_(std::move(metres)
   }
 }
 
+const char* nameOf(MotionVerdict verdict) {
+  switch (verdict) {
+    case MotionVerdict::free:
+      return "free";
+    case MotionVerdict::contact:
+      return "contact";
+    case MotionVerdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+const char* nameOf(UndecidedReason reason) {
+  switch (reason) {
+    case UndecidedReason::none:
+      break;
+    case UndecidedReason::clearance:
+      return "clearance";
+    case UndecidedReason::workLimit:
+      return "work_limit";
+    case UndecidedReason::ambiguous:
+      return "ambiguous";
+    case UndecidedReason::rounding:
+      return "rounding";
+    case UndecidedReason::floatingPoint:
+      return "floating_point";
+    case UndecidedReason::beyondProofs:
+      return "beyond_proofs";
+  }
+  return "";
+}
+
 void requireValid(const MotionOptions& options, std::size_t pairs) {
   const auto finite = [](double x, bool zeroToo) {
     return std::isfinite(x) && (zeroToo ? x >= 0 : x > 0);

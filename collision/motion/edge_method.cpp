@@ -39,7 +39,7 @@ MotionResult certifyMotionUncounted(EdgeMethod method, MotionSource& motion,
                                     std::span<const MotionPair> pairs, const MotionOptions& options,
                                     QueryContext& context) {
   switch (method) {
-    case EdgeMethod::directional:
+    case EdgeMethod::certified:
     case EdgeMethod::discrete:
       break;
     case EdgeMethod::adaptive:

@@ -15,9 +15,7 @@ namespace corridor {
 /// same promises (`certifyMotion`). They differ in cost, and therefore in the motions that stay
 /// undecided because of the work limit.
 enum class EdgeMethod {
-  /// Trees over space and time, with directional motion bounds: certify_motion.h. The default,
-  /// which users call `certified`.
-  directional,
+  certified,    ///< trees over space and time, with directional motion bounds: certify_motion.h
   adaptive,     ///< bisection on distances (Schwarzer et al. 2005): adaptive_motion.h
   advancement,  ///< conservative advancement on distances: conservative_advancement.h
   /// Samples, which prove nothing, as a baseline for planners (planner/checker). No query of this

@@ -38,6 +38,10 @@ enum class UndecidedReason {
   beyondProofs,
 };
 
+/// The words for results: "free", "work_limit"; "" for `none`.
+const char* nameOf(MotionVerdict verdict);
+const char* nameOf(UndecidedReason reason);
+
 /// The answer of a motion query (collision/PROMISES.md, promise 2). `free` is never wrong.
 /// `contact` is decided at the rounded pose at `time`, for meshes exactly. `undecided` has a
 /// reason.

@@ -311,7 +311,7 @@ struct NearPairs {
 MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& options,
                                  QueryContext& context, EdgeMethod method,
                                  MotionCertificate* certificate) const {
-  const bool isDefault = method == EdgeMethod::directional;
+  const bool isDefault = method == EdgeMethod::certified;
   MotionResult result =
       isDefault
           ? certifyMotion(motion, motionPairs_, options, context, certificate, broadPhase_.get())
@@ -370,7 +370,7 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
 MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
                             QueryContext& context, MotionCertificate& certificate) const {
   const MotionResult result =
-      certifyPairs(motion, options, context, EdgeMethod::directional, &certificate);
+      certifyPairs(motion, options, context, EdgeMethod::certified, &certificate);
   count(motion, result, context.counters);
   return result;
 }

@@ -108,8 +108,8 @@ class Scene {
   /// answer is a contact at t = 0. Motion number i of `motion` is the motion of frame pair
   /// `framePairs()[i]`.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
-                       EdgeMethod method = EdgeMethod::directional) const;
-  /// Decides whether the motion is free, by the method `EdgeMethod::directional`, and writes a
+                       EdgeMethod method = EdgeMethod::certified) const;
+  /// Decides whether the motion is free, by the method `EdgeMethod::certified`, and writes a
   /// certificate. `checkCertificate` (motion/check_certificate.h) can check the certificate later,
   /// given `motionPairs()`. The certificate is about surfaces: it is empty if the answer follows
   /// from containment in a solid mesh, or if containment cannot be decided.

@@ -163,26 +163,6 @@ int checkStates(Problem problem, const CheckArguments& a) {
   return all ? kDone : kNegativeResult;
 }
 
-const char* reasonName(UndecidedReason reason) {
-  switch (reason) {
-    case UndecidedReason::none:
-      break;
-    case UndecidedReason::clearance:
-      return "clearance";
-    case UndecidedReason::workLimit:
-      return "work_limit";
-    case UndecidedReason::ambiguous:
-      return "ambiguous";
-    case UndecidedReason::rounding:
-      return "rounding";
-    case UndecidedReason::floatingPoint:
-      return "floating_point";
-    case UndecidedReason::beyondProofs:
-      return "beyond_proofs";
-  }
-  return "";
-}
-
 /// The answer about an edge of a file, as it is printed.
 struct CheckedEdge {
   std::string verdict, pair, reason;
@@ -205,7 +185,7 @@ CheckedEdge checkEdge(const Checker& checker, EdgeRow row, std::vector<Note>& no
   else
     result = checker.certifyEdge(row.from, row.to, {.earliest = true});
   edge.verdict = nameOf(result.verdict);
-  edge.reason = reasonName(result.reason);
+  edge.reason = nameOf(result.reason);
   edge.t0 = result.certifiedUntil;
   if (result.time >= 0) edge.t1 = result.time;
   if (result.pair) {

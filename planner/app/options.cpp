@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "planner/problem/yaml_reader.h"
+#include "planner/problem/number_text.h"
 
 namespace corridor::app {
 

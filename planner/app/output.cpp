@@ -20,18 +20,6 @@
 
 namespace corridor::app {
 
-const char* nameOf(MotionVerdict verdict) {
-  switch (verdict) {
-    case MotionVerdict::free:
-      return "free";
-    case MotionVerdict::contact:
-      return "contact";
-    case MotionVerdict::undecided:
-      break;
-  }
-  return "undecided";
-}
-
 void ResultPrinter::line(std::string_view key, const std::string& value, Tone tone) const {
   if (quiet_) return;
   // The stdout of a rank is a terminal even if the stdout of `mpirun` is a file.

@@ -32,9 +32,6 @@ class ResultPrinter {
   bool quiet_;
 };
 
-/// Returns "free", "contact" or "undecided".
-const char* nameOf(MotionVerdict verdict);
-
 /// Inserts `notes` before all notes in `to`.
 inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
   to.insert(to.begin(), notes.begin(), notes.end());

@@ -1,10 +1,12 @@
 #include <atomic>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -83,13 +85,16 @@ void requireFiles(const SolveArguments& a) {
                            "the standard output has the report of --json already; name a file"});
   if (a.output == "-" && a.picture == "-")
     throw InputError(Fault{"--picture", 0, "the standard output has the solution already"});
-  const auto whole = [](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
-  };
-  if (a.output && a.picture && *a.output != "-" && whole(*a.output) == whole(*a.picture))
-    throw InputError(Fault{"--picture", 0, "is the file of --output; name another one"});
-  if (a.output && a.trajectory && *a.output != "-" && whole(*a.output) == whole(*a.trajectory))
-    throw InputError(Fault{"--trajectory", 0, "is the file of --output; name another one"});
+  std::map<std::filesystem::path, std::string> files;  // their options
+  for (const auto& [option, file] :
+       {std::pair("--output", &a.output), std::pair("--picture", &a.picture),
+        std::pair("--trajectory", &a.trajectory)}) {
+    if (!*file || **file == "-") continue;
+    const auto [other, isNew] = files.try_emplace(
+        std::filesystem::weakly_canonical(std::filesystem::absolute(**file)), option);
+    if (!isNew)
+      throw InputError(Fault{option, 0, "is the file of " + other->second + "; name another one"});
+  }
 }
 
 /// Solves the problems that rank 0 hands out to this rank. @returns the exit status.

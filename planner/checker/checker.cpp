@@ -55,7 +55,7 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
                                    (options.tube.array() >= 0).all()),
       "tube must have a half width of 0 or more for each number of a configuration");
   require(proves(options.method), "method must prove edges");
-  require(options.method == EdgeMethod::directional || hasDefaultOverlap(options.trees.trees),
+  require(options.method == EdgeMethod::certified || hasDefaultOverlap(options.trees.trees),
           "trees must have the default overlap test of their volume if method is adaptive or "
           "advancement, which measure distances");
 }
@@ -103,11 +103,9 @@ Required requiredBy(const CheckerOptions& options, const ConfigurationSpace& spa
 CheckerOptions checkerOptions(const Task& task, const CheckerSettings& settings) {
   if (const auto wrong = invalidNameIn(settings))
     throw std::invalid_argument("checker." + wrong->key + ": " + wrong->text);
-  return {task.margin,
-          task.padding,
-          task.tube,
-          settings.tolerance,
-          proves(settings.edges) ? settings.edges : EdgeMethod::directional,
+  return {task.margin, task.padding, task.tube, settings.tolerance,
+          // Beside the samples of `discrete` edges, paths and states are still proved.
+          proves(settings.edges) ? settings.edges : EdgeMethod::certified,
           treesNamed(settings.trees)};
 }
 
@@ -216,7 +214,7 @@ MotionResult Checker::certifyEdge(const Configuration& from, const Configuration
   if (query.margins && query.certificate)
     throw std::invalid_argument("EdgeQuery: a certificate is for the checker's own margins");
   const bool isPlain = !query.margins && !query.certificate;
-  return certify(from, to, query, isPlain ? method_ : EdgeMethod::directional);
+  return certify(from, to, query, isPlain ? method_ : EdgeMethod::certified);
 }
 
 std::optional<CertificateFault> Checker::faultOf(const MotionCertificate& certificate,
@@ -260,7 +258,7 @@ MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const
   options.earliest = earliest;
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(piece);
-  return scene_.certify(workspace.motion, options, workspace.context, EdgeMethod::directional);
+  return scene_.certify(workspace.motion, options, workspace.context, EdgeMethod::certified);
 }
 
 std::optional<Contact> Checker::interference(const Configuration& q) const {
@@ -314,7 +312,7 @@ bool Checker::isProvedFree(const Configuration& q) const {
 
 bool Checker::isProvedFree(const Configuration& from, const Configuration& to) const {
   return inBounds(from) && inBounds(to) &&
-         certify(from, to, {}, EdgeMethod::directional).verdict == MotionVerdict::free;
+         certify(from, to, {}, EdgeMethod::certified).verdict == MotionVerdict::free;
 }
 
 }  // namespace corridor

@@ -35,7 +35,7 @@ struct CheckerOptions {
   /// The tube that the proofs cover, as `tubeOf` returns it; empty: rounding only.
   Configuration tube = {};
   std::optional<double> tolerance = {};  ///< metres; unset: default_tolerance.h
-  EdgeMethod method = EdgeMethod::directional;
+  EdgeMethod method = EdgeMethod::certified;
   TreeChoice trees = {};
 };
 
@@ -124,10 +124,10 @@ class Checker {
   /// such a configuration. @pre Configurations have the space's size.
 
   /// Decides whether a state is free, as an edge of zero length, always by
-  /// `EdgeMethod::directional`.
+  /// `EdgeMethod::certified`.
   MotionResult certifyState(const Configuration& q) const;
   /// Decides whether an edge is free. The method is that of the options; with `margins` or a
-  /// `certificate` it is `EdgeMethod::directional`.
+  /// `certificate` it is `EdgeMethod::certified`.
   /// @throws std::invalid_argument for margins that are negative or not finite, or if both
   /// `margins` and `certificate` are set.
   MotionResult certifyEdge(const Configuration& from, const Configuration& to,
@@ -143,7 +143,7 @@ class Checker {
                                           double until) const;
   /// Decides whether a piece of a curve is free, for the tube widened by the piece's `error`. Times
   /// in the result are values of the piece's parameter τ. The method is always
-  /// `EdgeMethod::directional`.
+  /// `EdgeMethod::certified`.
   /// @param earliest whether to search for the first contact, as in `EdgeQuery`.
   /// @throws std::invalid_argument if the piece has another number of rows than a configuration has
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
@@ -180,7 +180,7 @@ class Checker {
   /// Returns whether q is in bounds and `certifyState` is `free`.
   bool isProvedFree(const Configuration& q) const;
   /// Returns whether both ends are in bounds (then the whole edge is) and the edge is proved free.
-  /// Always uses `EdgeMethod::directional`, not the method of the options.
+  /// Always uses `EdgeMethod::certified`, not the method of the options.
   bool isProvedFree(const Configuration& from, const Configuration& to) const;
 
   /// Returns the sum of the counters of all threads. No query may run during this call.

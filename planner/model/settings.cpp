@@ -41,7 +41,7 @@ std::string ClosedRange::text() const {
 
 std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
   if (auto wrong = invalidNameIn(checker.trees)) return wrong;
-  const bool measures = proves(checker.edges) && checker.edges != EdgeMethod::directional;
+  const bool measures = proves(checker.edges) && checker.edges != EdgeMethod::certified;
   const std::string byDefault = withDefaults({checker.trees.volume, "", ""}).overlap;
   const std::string& overlap = checker.trees.overlap;
   if (!measures || overlap.empty() || overlap == byDefault) return std::nullopt;

@@ -81,7 +81,7 @@ struct PlannerSettings {
 };
 
 struct CheckerSettings {
-  EdgeMethod edges = EdgeMethod::directional;
+  EdgeMethod edges = EdgeMethod::certified;
   double resolution = 0.01;         ///< for `discrete`; see isResolution
   std::optional<double> tolerance;  ///< metres; unset: see checker/default_tolerance.h
   /// The trees that queries walk, by the words that users write.

@@ -13,6 +13,7 @@
 
 #include "collision/core/fault_list.h"
 #include "collision/core/spelling.h"
+#include "planner/problem/number_text.h"
 #include "planner/problem/yaml_value.h"
 #include "planner/robot/note.h"
 
@@ -47,19 +48,11 @@ struct YamlSource {
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };
 
-/// The ranges of numbers that a key's value may be restricted to.
-enum class Range { Any, NotNegative, Positive, Resolution /**< see `isResolution` */ };
-
 /// The whole numbers that are legal as the value of a key, both ends included.
 struct WholeRange {
   std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
   const char* words = "0 to 2^64 - 1";  ///< text of the range in messages
 };
-
-/// Parses the whole text as a decimal number. Returns "" and sets `value`, or returns an error
-/// message ("a number is needed, not …"). A number that is too small for a double becomes the
-/// nearest double. A number that is too large for a double, nan and inf give an error message.
-std::string parseNumber(std::string_view text, Range range, double& value);
 
 /// A map of a YAML file, and the path of the map in the file. Functions that return values mark
 /// their keys as read (yaml_ledger.h).

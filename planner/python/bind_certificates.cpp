@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <string>
 
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
@@ -40,26 +42,6 @@ const char* nameOf(CertificateFault::Kind kind) {
       return "ambiguous";
     case CertificateFault::Kind::floatingPoint:
       return "floating point";
-  }
-  return "";
-}
-
-const char* nameOf(UndecidedReason reason) {
-  switch (reason) {
-    case UndecidedReason::none:
-      return "";
-    case UndecidedReason::clearance:
-      return "clearance";
-    case UndecidedReason::workLimit:
-      return "work limit";
-    case UndecidedReason::ambiguous:
-      return "ambiguous";
-    case UndecidedReason::rounding:
-      return "rounding";
-    case UndecidedReason::floatingPoint:
-      return "floating point";
-    case UndecidedReason::beyondProofs:
-      return "beyond proofs";
   }
   return "";
 }
@@ -117,7 +99,9 @@ py::dict certificate(const NativeProblem& problem, const Array& q0, const Array&
   py::dict d = certificatePairs(problem);
   d["verdict"] =
       static_cast<int>(codeOf(checker.inBounds(from) && checker.inBounds(to), result.verdict));
-  d["reason"] = nameOf(result.reason);
+  std::string reason = nameOf(result.reason);
+  std::ranges::replace(reason, '_', ' ');
+  d["reason"] = reason;
   d["free_until"] = result.certifiedUntil;
   d["time"] = result.time >= 0 ? py::cast(result.time) : py::none();
   addIntervals(proof, d);

@@ -27,6 +27,7 @@
 #include "planner/app/options.h"
 #include "planner/app/other_program.h"
 #include "planner/app/output.h"
+#include "planner/app/read_mesh.h"
 #include "planner/app/standard_streams.h"
 #include "planner/query/commands.h"
 #include "planner/query/number_lines.h"
@@ -82,7 +83,7 @@ int separatePlanes(const std::string& meshFile, const std::string& planeFile) {
     planes.push_back({Vec3(line[0], line[1], line[2]), line[3]});
     return std::string(planes.back().normal.isZero(0) ? "the normal is 0" : "");
   });
-  const TriangleMesh mesh = readMeshFile(meshFile).mesh;
+  const TriangleMesh mesh = readMeshAndPrintNotes(meshFile).mesh;
   const DobkinKirkpatrick hull =
       checked(meshFile, [&] { return DobkinKirkpatrick(Polytope(mesh.vertices)); });
   const Polytope& polytope = hull.polytope();

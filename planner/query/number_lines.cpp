@@ -6,7 +6,8 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/yaml_reader.h"
+#include "planner/app/output.h"
+#include "planner/problem/number_text.h"
 
 namespace corridor::app {
 namespace {

@@ -6,6 +6,7 @@
 #include "collision/core/error.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/output.h"
+#include "planner/app/read_mesh.h"
 #include "planner/query/query_output.h"
 #include "planner/query/query_trees.h"
 
@@ -29,7 +30,7 @@ AllFrames queryFrames(const NamedQuery& query, const Batch& batch, const std::st
   const auto next = [&]() -> std::optional<TriangleMesh> {
     if (file == files.end()) return std::nullopt;
     const std::string& name = *file++;
-    MeshFile shape = readMeshFile(name);
+    MeshFile shape = readMeshAndPrintNotes(name);
     if (shape.mesh.triangles.size() != triangles)
       throw InputError(Fault{name, 0,
                              "has " + counted(shape.mesh.triangles.size(), "triangle") + ", but " +

@@ -19,7 +19,7 @@
 #include "collision/core/whole_file.h"
 #include "collision/volumes/obb.h"
 #include "planner/app/output.h"
-#include "planner/problem/yaml_reader.h"
+#include "planner/problem/number_text.h"
 #include "planner/query/number_lines.h"
 
 namespace corridor::app {

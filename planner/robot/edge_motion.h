@@ -37,7 +37,7 @@ class EdgeMotion final : public MotionSource {
   /// @pre Both configurations have the space's size.
   void set(const Configuration& from, const Configuration& to);
   /// Sets a piece of a curve, whose parameter τ takes the place of t. The piece's `error` is added
-  /// to the tube. Time intervals must be within [0, 1]. Queries must use `EdgeMethod::directional`,
+  /// to the tube. Time intervals must be within [0, 1]. Queries must use `EdgeMethod::certified`,
   /// which keeps to this rule. If a coefficient or an error is not finite, an error is negative, or
   /// a first or last quaternion is zero, the piece is `ambiguous`. @pre There is one row and one
   /// error for each number of a configuration.

@@ -81,7 +81,7 @@ class SolveRun {
   bool discrete() const { return problem_.settings.checker.edges == EdgeMethod::discrete; }
   /// Returns whether the edge tests that the planner uses prove as much as the final certification.
   bool testsAreProofs() const {
-    return problem_.settings.checker.edges == EdgeMethod::directional &&
+    return problem_.settings.checker.edges == EdgeMethod::certified &&
            (!options_.adaptChecking || options_.adaptedTestsAreProofs);
   }
   bool maximisesClearance() const {

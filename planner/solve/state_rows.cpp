@@ -4,10 +4,11 @@
 #include <functional>
 #include <utility>
 
+#include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "planner/problem/number_text.h"
 #include "planner/problem/table_lines.h"
-#include "planner/problem/yaml_reader.h"
 
 namespace corridor {
 

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "collision/core/spelling.h"
+#include "planner/problem/number_text.h"
 #include "planner/problem/table_lines.h"
-#include "planner/problem/yaml_reader.h"
 #include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
 

@@ -119,20 +119,20 @@ class Rows {
   /// Speeds of links are only estimated here; proveLimits proves them.
   bool usesLittle(const TimedRow& first, const TimedRow& last) const {
     const auto size = static_cast<Eigen::Index>(view_.space().size());
-    constexpr int kinds = 3;
-    std::array<std::array<Configuration, 6>, kinds> values;
+    constexpr int kKinds = 3;
+    std::array<std::array<Configuration, 6>, kKinds> values;
     for (auto& kind : values) kind.fill(Configuration::Zero(size));
-    std::array<int, kinds> degrees{};
+    std::array<int, kKinds> degrees{};
     for (Eigen::Index n = 0; n < size; ++n) {
       const RowPolynomials p = rowPolynomials(first, last, options_.degree, n);
       const std::array polynomials{&p.velocity, &p.acceleration, &p.jerk};
-      for (std::size_t kind = 0; kind < kinds; ++kind) {
+      for (std::size_t kind = 0; kind < kKinds; ++kind) {
         degrees[kind] = polynomials[kind]->degree;
         for (std::size_t i = 0; i < 6; ++i) values[kind][i][n] = polynomials[kind]->c[i];
       }
     }
     const std::array limits{&limits_.velocity, &limits_.acceleration, &limits_.jerk};
-    for (std::size_t kind = 0; kind < kinds; ++kind)
+    for (std::size_t kind = 0; kind < kKinds; ++kind)
       for (int i = 0; i <= degrees[kind]; ++i) {
         Configuration& at = values[kind][static_cast<std::size_t>(i)];
         for (const Eigen::Index r : view_.rotations()) at.segment<4>(r).setZero();

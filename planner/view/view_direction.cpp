@@ -7,7 +7,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
-#include "planner/problem/yaml_reader.h"
+#include "planner/problem/number_text.h"
 
 namespace corridor {
 namespace {

@@ -47,7 +47,7 @@ void compareWithReplay(const Campaign& campaign, const CampaignResult& result) {
   };
   for (const CampaignCell& real : result.cells)
     for (const CampaignCell& replay : result.cells) {
-      if (!is(real, EdgeMethod::directional, false) || !is(replay, EdgeMethod::directional, true) ||
+      if (!is(real, EdgeMethod::certified, false) || !is(replay, EdgeMethod::certified, true) ||
           real.problem != replay.problem || real.planner.label != replay.planner.label ||
           specOf(real).tolerance != specOf(replay).tolerance)
         continue;

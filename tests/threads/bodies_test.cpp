@@ -191,7 +191,7 @@ Answers askMoving(const RigidScene& scene, TreeKind trees) {
     options.earliest = i % 3 == 0;
     RigidEdge edge(RigidMotion::spatial(from, to, {.position = 1e-6, .rotation = 1e-6}));
     for (const EdgeMethod method :
-         {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement})
+         {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
       answers.add(scene.scene().certify(edge, options, context, method));
     answers.add(scene.certifyState(from, options, context));
     answers.add(scene.certifyEdgePlanar({from.p[0], from.p[1], 0.1}, {to.p[0], to.p[1], 1}, options,
@@ -227,7 +227,7 @@ TEST(Threads, MovingBodies) {
   }
 }
 
-/// A Collada file with one triangle, which only assimp reads.
+/// A Collada file with one triangle.
 const char* const kCollada = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset/><library_geometries><geometry id="g"><mesh>
@@ -251,9 +251,9 @@ TEST(Threads, FirstUse) {
     seen[k] = simdTarget();
     for (const VolumeKind& kind : volumeKinds()) seen[k] += kind.name;
     for (const std::string& method : edgeMethodNames()) seen[k] += method;
-    const MeshFile file = readMeshFile(folder / "a.dae");  // starts the helper program of assimp
+    const OmplAppMesh file = readOmplAppMesh(folder / "a.dae");  // starts the helper of assimp
     const Body body("", file.mesh);
-    seen[k] += file.format + std::to_string(body.volumeTree<Kdop<18>>().nodes().size());
+    seen[k] += std::to_string(body.volumeTree<Kdop<18>>().nodes().size());
   });
   std::filesystem::remove_all(folder);
   for (const std::string& mine : seen) EXPECT_EQ(mine, seen[0]);

@@ -133,7 +133,7 @@ TEST_P(Threads, SceneAndEdgeMotions) {
     for (const Edge& edge : edges) {
       motion.set(edge.from, edge.to);
       for (const EdgeMethod method :
-           {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement})
+           {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
         mine.add(scene.certify(motion, options, context, method));
     }
     mine.add(context.counters);

@@ -21,7 +21,7 @@ inline Body bodyOf(TriangleMesh mesh) {
 
 /// A way to prove a motion: a method, and the kind of trees that it uses.
 struct Proof {
-  EdgeMethod method = EdgeMethod::directional;
+  EdgeMethod method = EdgeMethod::certified;
   TreeKind trees = TreeKind::obb4;
 
   Proof() = default;
@@ -47,11 +47,11 @@ inline MotionResult certify(const Body& moving, const Body& fixed, const RigidMo
 /// of spheres.
 inline auto everyProof() {
   using enum EdgeMethod;
-  return testing::Values(Proof(directional), Proof(adaptive), Proof(advancement),
-                         Proof(directional, TreeKind::obbBinary),
-                         Proof(directional, TreeKind::obbGjk), Proof(directional, TreeKind::aabb),
-                         Proof(directional, TreeKind::sphere), Proof(directional, TreeKind::rss),
-                         Proof(directional, TreeKind::kdop18), Proof(adaptive, TreeKind::sphere));
+  return testing::Values(Proof(certified), Proof(adaptive), Proof(advancement),
+                         Proof(certified, TreeKind::obbBinary), Proof(certified, TreeKind::obbGjk),
+                         Proof(certified, TreeKind::aabb), Proof(certified, TreeKind::sphere),
+                         Proof(certified, TreeKind::rss), Proof(certified, TreeKind::kdop18),
+                         Proof(adaptive, TreeKind::sphere));
 }
 /// Returns the name of a kind of trees as part of a test's name, for example "obb_binary_gjk".
 inline std::string treeName(TreeKind trees) {

@@ -234,7 +234,7 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
       QueryContext context;
       options.workLimit = limit;
       const MotionResult r =
-          certify(moving, fixed, motion, options, context, {EdgeMethod::directional, trees});
+          certify(moving, fixed, motion, options, context, {EdgeMethod::certified, trees});
       EXPECT_LE(context.counters.work(), limit + 16 + 256);
       EXPECT_EQ(r.reason, UndecidedReason::workLimit);
     }
@@ -254,7 +254,7 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   for (const TreeKind trees : {TreeKind::obbBinary, TreeKind::sphere}) {
     QueryContext context;
     const MotionResult r =
-        certify(tiny, large, rest, options, context, {EdgeMethod::directional, trees});
+        certify(tiny, large, rest, options, context, {EdgeMethod::certified, trees});
     EXPECT_EQ(r.reason, UndecidedReason::workLimit);
     EXPECT_LE(context.counters.work(), options.workLimit + 16);
   }
@@ -292,7 +292,7 @@ TEST(CertifyMotion, ContactsThatBeginWithAnInterval) {
   const Body a = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones())),
              b = bodyOf(box(-0.5 * Vec3::Ones(), 0.5 * Vec3::Ones()));
   for (const EdgeMethod method :
-       {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement})
+       {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement})
     for (const double clearanceSlack : {0.0, 1e-7})
       for (const bool earliest : {false, true})
         for (int k = 0; k <= 64; ++k) {
@@ -345,7 +345,7 @@ TEST(CertifyMotion, AMarginLargerThanTheGapOfSpheres) {
   MotionOptions options;
   options.tolerance = 1e-6;
   for (const test::Proof& proof :
-       {test::Proof(EdgeMethod::directional), test::Proof(EdgeMethod::directional, TreeKind::rss),
+       {test::Proof(EdgeMethod::certified), test::Proof(EdgeMethod::certified, TreeKind::rss),
         test::Proof(EdgeMethod::adaptive)}) {
     options.margin = 1;
     EXPECT_EQ(test::certify(cube, wall, motion, options, context, proof).verdict,

@@ -7,7 +7,7 @@ namespace {
 
 TEST(EdgeMethodNames, AreThoseOfTheEnumeration) {
   EXPECT_EQ(edgeMethodNames().size(), 4u);
-  EXPECT_EQ(edgeMethodNamed("certified"), EdgeMethod::directional);
+  EXPECT_EQ(edgeMethodNamed("certified"), EdgeMethod::certified);
   EXPECT_EQ(edgeMethodNamed("adaptive"), EdgeMethod::adaptive);
   EXPECT_EQ(edgeMethodNamed("advancement"), EdgeMethod::advancement);
   EXPECT_EQ(edgeMethodNamed("discrete"), EdgeMethod::discrete);

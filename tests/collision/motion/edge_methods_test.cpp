@@ -109,8 +109,8 @@ TEST_P(EdgeMethods, FirstContactOfATranslation) {
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
   options_.earliest = true;
   for (const double clearanceSlack : {0.0, 1e-3, 1e-2}) {
-    if (clearanceSlack > 0 && GetParam().method == EdgeMethod::directional)
-      continue;  // `directional` stops only at ends of bisected intervals
+    if (clearanceSlack > 0 && GetParam().method == EdgeMethod::certified)
+      continue;  // `certified` stops only at ends of bisected intervals
     options_.clearanceSlack = clearanceSlack;
     const MotionResult r =
         ask(cube, wall, RigidMotion::spatial(at(Vec3(0, -5, 0)), at(Vec3(0, 5, 0)), {}));
@@ -174,9 +174,9 @@ TEST_P(EdgeMethods, ThinPlateIsNotJumped) {
 TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   const Body wall = bodyOf(box(Vec3(-10, 1, -10), Vec3(10, 1.5, 10))),
              cube = bodyOf(box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)));
-  // The clearance is 0.1. For methods other than `directional` the motion is shorter, because they
+  // The clearance is 0.1. For methods other than `certified` the motion is shorter, because they
   // take small steps if the margin is nearly as large as the clearance.
-  const double way = GetParam().method == EdgeMethod::directional ? 5 : 0.01;
+  const double way = GetParam().method == EdgeMethod::certified ? 5 : 0.01;
   const RigidPose a = at(Vec3(-way, 0.4, 0)), b = at(Vec3(way, 0.4, 0));
   Tube tube;
   const auto verdict = [&](const RigidPose& from, const RigidPose& to) {
@@ -209,8 +209,8 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   for (const std::uint64_t limit : {3, 100'000}) {
     options_.workLimit = limit;
     context_.counters = {};
-    // `directional` needs less work than the larger limit.
-    if (limit > 3 && GetParam().method == EdgeMethod::directional) continue;
+    // `certified` needs less work than the larger limit.
+    if (limit > 3 && GetParam().method == EdgeMethod::certified) continue;
     const MotionResult beside = verdict(at(Vec3(-5, 0.5 - 1e-6, 0)), at(Vec3(5, 0.5 - 1e-6, 0)));
     EXPECT_EQ(beside.reason, UndecidedReason::workLimit) << limit;
     EXPECT_LT(context_.counters.poses, limit / 10 + 10) << "the query ends soon after the limit";
@@ -320,7 +320,7 @@ TEST_P(EdgeMethods, GrazingIsReportedOnlyForNarrowGaps) {
   EXPECT_FALSE(r.grazing);
   EXPECT_LE(r.certifiedUntil, 0.25);
   // All other methods stop where an interval cannot be proved.
-  if (GetParam().method != EdgeMethod::directional) {
+  if (GetParam().method != EdgeMethod::certified) {
     EXPECT_GT(r.certifiedUntil, 0.2);
     EXPECT_EQ(r.pair->bodyA, 0u);
   }
@@ -387,7 +387,7 @@ TEST_P(EdgeMethods, GrazingByConstruction) {
             << " in contact, " << tooMuch << " took too much work\n";
   EXPECT_GT(free, apart / 5);
   EXPECT_GT(contact, together / 4);
-  if (GetParam().method == EdgeMethod::directional) {
+  if (GetParam().method == EdgeMethod::certified) {
     EXPECT_EQ(tooMuch, 0);
   }
 }

@@ -160,7 +160,7 @@ TEST_P(Sturm, Motions) {
     if (kind == RationalScene::nearby) {
       EXPECT_LE(counts_.undecided + counts_.workLimit, 1 + counts_.asked / 50);
     }
-    if (GetParam().method == EdgeMethod::directional) {
+    if (GetParam().method == EdgeMethod::certified) {
       EXPECT_LE(counts_.workLimit, 1 + counts_.asked / 1000);
     }
   }

@@ -75,7 +75,7 @@ TEST(PairMargins, AMotionIsFreeIfEachPairKeepsItsOwn) {
     const PairMargins margins(metres);
     MotionOptions options = optionsWith(margins, margin);
     for (const EdgeMethod method :
-         {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement}) {
+         {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement}) {
       RigidEdge edge(row.motion());
       QueryContext context;
       const MotionResult result = row.scene().certify(edge, options, context, method);

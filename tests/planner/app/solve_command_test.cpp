@@ -146,6 +146,8 @@ TEST_F(SolveArm, FaultsOfTrajectories) {
               "--trajectory: is a file for one problem, and several are given");
   expectFault("solve arm.yaml -o t.yaml --trajectory t.yaml",
               "--trajectory: is the file of --output; name another one");
+  expectFault("solve arm.yaml --picture t.csv --trajectory t.csv",
+              "--trajectory: is the file of --picture; name another one");
   expectFault("solve arm.yaml --trajectory none/t.csv", "--trajectory: there is no folder none");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "t.yaml"));
 }

@@ -35,7 +35,7 @@ TEST(Variant, SetsTheKnobOfItsKind) {
   EXPECT_FALSE(checker.tolerance);
   checker = {};
   readVariant("certified:1e-6").apply(checker);
-  EXPECT_EQ(checker.edges, EdgeMethod::directional);
+  EXPECT_EQ(checker.edges, EdgeMethod::certified);
   EXPECT_EQ(checker.resolution, CheckerSettings{}.resolution);
   EXPECT_EQ(checker.tolerance, 1e-6);
 }

@@ -89,7 +89,7 @@ void expectAmbiguous(const MotionResult& result, const std::string& what) {
 TEST(NotFiniteStates, AreNeverFree) {
   for (const NotFiniteCase& c : cases())
     for (const EdgeMethod method :
-         {EdgeMethod::directional, EdgeMethod::adaptive, EdgeMethod::advancement}) {
+         {EdgeMethod::certified, EdgeMethod::adaptive, EdgeMethod::advancement}) {
       const Checker checker(c.model, {.method = method});
       ASSERT_EQ(checker.certifyEdge(c.from, c.to).verdict, MotionVerdict::free) << c.name;
       const std::size_t pairs = checker.pairsNotFree(c.from).size();

@@ -118,7 +118,7 @@ TEST_F(ProblemYaml, Defaults) {
   EXPECT_EQ(p.settings.planner.time, 20);
   EXPECT_FALSE(p.settings.planner.stopAtFirst);
   EXPECT_EQ(p.settings.sampler, ValidSampler::uniform);
-  EXPECT_EQ(p.settings.checker.edges, EdgeMethod::directional);
+  EXPECT_EQ(p.settings.checker.edges, EdgeMethod::certified);
   EXPECT_EQ(p.settings.checker.trees.volume, "obb");
   EXPECT_EQ(treesNamed(p.settings.checker.trees).trees, TreeKind::obb4);
   EXPECT_EQ(p.task.margin, 0);

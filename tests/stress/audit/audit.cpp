@@ -24,8 +24,8 @@ constexpr TreeKind kTrees[] = {TreeKind::obb4,
                                CORRIDOR_EACH_OVERLAP(CORRIDOR_KIND)
 #undef CORRIDOR_KIND
 };
-constexpr EdgeMethod kMethods[] = {EdgeMethod::directional, EdgeMethod::directional,
-                                   EdgeMethod::directional, EdgeMethod::adaptive,
+constexpr EdgeMethod kMethods[] = {EdgeMethod::certified, EdgeMethod::certified,
+                                   EdgeMethod::certified, EdgeMethod::adaptive,
                                    EdgeMethod::advancement};
 constexpr int kGaps = 6;
 
@@ -42,8 +42,8 @@ double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, bool 
   const double size = graze.size();
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
   question.method =
-      fine || curve ? EdgeMethod::directional : dice.of(std::span<const EdgeMethod>(kMethods));
-  const bool certified = question.method == EdgeMethod::directional;
+      fine || curve ? EdgeMethod::certified : dice.of(std::span<const EdgeMethod>(kMethods));
+  const bool certified = question.method == EdgeMethod::certified;
   o.tolerance =
       std::max(4 * graze.rounding(), size * (certified ? dice.power(-7, -5) : dice.power(-4, -3)));
   o.workLimit = 100'000;

@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr EdgeMethod kEdgeMethods[] = {EdgeMethod::directional, EdgeMethod::adaptive,
+constexpr EdgeMethod kEdgeMethods[] = {EdgeMethod::certified, EdgeMethod::adaptive,
                                        EdgeMethod::advancement};
 
 /// If the bodies come closer than the margin, a certificate must be refused, whatever clearance it

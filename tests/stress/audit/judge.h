@@ -20,7 +20,7 @@ namespace corridor::audit {
 /// The options with which a case is queried.
 struct Question {
   MotionOptions options;
-  EdgeMethod method = EdgeMethod::directional;
+  EdgeMethod method = EdgeMethod::certified;
   bool rigidMotion = false;  ///< use `RigidMotion` instead of `EdgeMotion`
   bool inTube = false;       ///< the true verdict is that of one curve in the tube, not of the edge
                              ///< itself
