@@ -2,6 +2,7 @@
 import math
 import pathlib
 import random
+import subprocess
 
 
 def write_mesh(file, vertices, faces):
@@ -62,14 +63,28 @@ def poses(source, count, nearest, farthest):
     return [rotation(source) + [source.uniform(nearest, farthest) * x for x in direction(source)] for _ in range(count)]
 
 
-def make_inputs(folder: pathlib.Path):
+def split_poses(folder, program):
+    """Splits poses.txt by the program's answers: gaps.txt has the poses without contact, contacts.txt the others."""
+    done = subprocess.run([program, *"query a.obj b.obj --poses poses.txt".split()], cwd=folder, capture_output=True,
+                          text=True, check=True)
+    hits = [answer.split(",")[1] == "1" for answer in done.stdout.splitlines()[1:]]
+    lines = (folder / "poses.txt").read_text().splitlines(keepends=True)
+    for name, wanted in (("gaps", False), ("contacts", True)):
+        chosen = [pose for pose, hit in zip(lines, hits, strict=True) if hit == wanted]
+        (folder / f"{name}.txt").write_text("".join(chosen))
+
+
+def make_inputs(folder: pathlib.Path, program: pathlib.Path):
     source = random.Random(1)
     write_mesh(folder / "a.obj", *torus(80, 30))
     write_mesh(folder / "b.obj", *torus(60, 40))
     for k in range(1, 4):
         write_mesh(folder / f"a{k}.obj", *torus(80, 30, 0.02 * k))
     (folder / "poses.txt").write_text("".join(map(line, poses(source, 300, 0, 2.7))))
+    split_poses(folder, program)
     starts, ends = poses(source, 100, 3, 3.2), poses(source, 100, 0, 1)
+    more = random.Random(2)  # passing by: many of these are free
+    starts, ends = starts + poses(more, 50, 3, 3.2), ends + poses(more, 50, 2.4, 2.7)
     (folder / "motions.txt").write_text("".join(line(a + b) for a, b in zip(starts, ends)))
     for name, count in (("p", 1000), ("q", 1000), ("p100", 100), ("q100", 100), ("p5", 100_000), ("q5", 100_000)):
         points = [direction(source) for _ in range(count)]
@@ -77,7 +92,7 @@ def make_inputs(folder: pathlib.Path):
     (folder / "hulls.txt").write_text("".join(map(line, poses(source, 200, 1.6, 2.4))))
     (folder / "apart.txt").write_text("".join(map(line, poses(source, 100, 2.05, 2.05))))
     (folder / "overlap.txt").write_text("".join(map(line, poses(source, 100, 1.95, 1.95))))
-    (folder / "turns.txt").write_text("".join(line(rotation(source) + [0, 0, 0]) for _ in range(60)))
+    (folder / "overlap100.txt").write_text("".join(map(line, poses(random.Random(3), 100, 1.6, 1.6))))
     still = [1, 0, 0, 0, 1, 0, 0, 0, 1]
     (folder / "steps.txt").write_text("".join(line(still + [2.6 * math.cos(a), 2.6 * math.sin(a), 0.1])
                                               for a in (0.01 * i for i in range(300))))
@@ -86,7 +101,7 @@ def make_inputs(folder: pathlib.Path):
         count = 100_000
         (folder / f"{name}.txt").write_text("".join(
             line([shift + math.cos(2 * math.pi * i / count), math.sin(2 * math.pi * i / count)]) for i in range(count)))
-    for variables, count in ((3, 1000), (3, 10_000), (6, 1000), (6, 10_000)):
+    for variables, count in ((6, 1000), (6, 10_000)):
         rows = [line([1] * variables)]
         for _ in range(count):
             normal = [source.gauss(0, 1) for _ in range(variables)]

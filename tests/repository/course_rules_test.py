@@ -57,6 +57,22 @@ class Rules(unittest.TestCase):
         with self.assertRaises(KeyError):
             holds("a.hits > 0 or b.hits > 0", hits=1)
 
+    def test_times_within_the_noise_decide_nothing(self):
+        row = {"topic": "a topic", "rule": "a.median_ns <= 100 * b.median_ns"}
+        for ratio, verdict in ((80, course.HOLDS), (90, course.OPEN), (110, course.OPEN), (120, course.FAILS)):
+            self.assertEqual(course.verdict(row, {"a.median_ns": ratio, "b.median_ns": 1}), verdict)
+        for steps, verdict in ((66, course.HOLDS), (67, course.FAILS)):
+            self.assertEqual(course.verdict({"topic": "", "rule": "a.steps <= 66"}, {"a.steps": steps}), verdict)
+
+    def test_columns_of_answers(self):
+        output = "pose,hit,ns\n0,1,20\n1,0,40\n2,1,90\nns=7\noverlap=sat\n"
+        times = {"median ": 40, "largest ": 90, "least ": 20, "count ": 3, "": 90}
+        for word, figure in times.items():
+            self.assertEqual(course.matched(word + r"^\d+,.,(\d+)$", output), figure, word)
+        self.assertEqual(course.matched(r"median ^\d+,1,(\d+)$", output), 55)
+        self.assertEqual(course.matched(r"^overlap=(sat)$", output), 1)
+        self.assertIsNone(course.matched(r"^overlap=(lp)$", output))
+
     def test_other_text_raises(self):
         for rule in ("hits > 0", "a.hits > 0 or True", "print(a.hits)", "a.hits > 0 # always", "a.hits.real > 0",
                      "[a.hits][0] > 0", "a.hits if a.hits else 1", "a.hits > 0; 1", "a.hits > '0'", "().__class__"):
