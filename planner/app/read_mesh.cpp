@@ -1,5 +1,8 @@
 #include "planner/app/read_mesh.h"
 
+#include <iostream>
+
+#include "collision/core/spelling.h"
 #include "collision/geometry/stated_unit.h"
 
 namespace corridor::app {
@@ -10,6 +13,13 @@ MeshFile readMeshAs(const std::string& file, const std::optional<std::string>& u
   if (unit) options.metresPerUnit = metresPerUnitNamed(*unit);
   if (up) options.up = up->front();
   return readMeshFile(file, options);
+}
+
+MeshFile readMeshAndPrintNotes(const std::string& file) {
+  MeshFile mesh = readMeshFile(file);
+  for (const std::string& text : mesh.notes)
+    std::cerr << "note: " << withoutControls(file + ": " + text) << '\n';
+  return mesh;
 }
 
 }  // namespace corridor::app

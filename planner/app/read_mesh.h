@@ -12,4 +12,7 @@ namespace corridor::app {
 MeshFile readMeshAs(const std::string& file, const std::optional<std::string>& unit,
                     const std::optional<std::string>& up);
 
+/// Reads a mesh file, and prints its notes on stderr, each with the file's name.
+MeshFile readMeshAndPrintNotes(const std::string& file);
+
 }  // namespace corridor::app

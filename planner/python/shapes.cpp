@@ -61,12 +61,15 @@ PlacedShape shapeFrom(const std::string& name, const py::tuple& shape) {
     return primitiveShape(name, Cylinder{shape[1].cast<double>(), shape[2].cast<double>()}, at);
   if (kind == "convex")
     return primitiveShape(name, Convex{pointsOf(shape[1].cast<Array>(), "points")}, at);
-  TriangleMesh mesh = kind == "mesh"
-                          ? meshOf(shape[1].cast<Array>(), shape[2].cast<Indices>())
-                          : readMeshFile(shape[1].cast<std::string>(),
-                                         {.metresPerUnit = shape[2].cast<std::optional<double>>()})
-                                .mesh;
-  return meshShape(name, std::move(mesh), shape[3].cast<bool>(), at);
+  const bool isSolid = shape[3].cast<bool>();
+  if (kind == "mesh")
+    return meshShape(name, meshOf(shape[1].cast<Array>(), shape[2].cast<Indices>()), isSolid, at);
+  const auto file = shape[1].cast<std::string>();
+  MeshFile read = readMeshFile(file, {.metresPerUnit = shape[2].cast<std::optional<double>>()});
+  PlacedShape made = meshShape(name, std::move(read.mesh), isSolid, at);
+  for (const std::string& text : read.notes)
+    made.notes.push_back({text + ": " + file, NoteWeight::coverage});
+  return made;
 }
 
 std::vector<PlacedShape> shapesFrom(const std::string& name, const py::list& shapes) {

@@ -13,6 +13,7 @@
 #include "planner/app/options.h"
 #include "planner/app/other_program.h"
 #include "planner/app/output.h"
+#include "planner/app/read_mesh.h"
 #include "planner/query/commands.h"
 #include "planner/query/query_batch.h"
 #include "planner/query/query_deform.h"
@@ -59,8 +60,8 @@ int queryMotions(const QueryArguments& a) {
   const EdgeMethod method = *edgeMethodNamed(edges);
   const TreeNames trees = chosenTrees(treeWords(a));
   requireNoOctree(trees, "--motions");
-  if (method != EdgeMethod::directional) requireDefaultOverlap(trees, "--edges certified", edges);
-  MeshFile meshA = readMeshFile(a.meshA), meshB = readMeshFile(a.meshB);
+  if (method != EdgeMethod::certified) requireDefaultOverlap(trees, "--edges certified", edges);
+  MeshFile meshA = readMeshAndPrintNotes(a.meshA), meshB = readMeshAndPrintNotes(a.meshB);
   const std::vector<PoseMotion> motions = readMotions(*a.motions);
   checkRepeats(a, motions.size(), "motion");
   const BatchResult result =
@@ -81,22 +82,26 @@ int queryMotions(const QueryArguments& a) {
   return kDone;
 }
 
-/// The meshes and the poses of a query. The constructor reads them, and writes the poses of a grid.
+/// The meshes and the poses of a query.
 struct PoseInput {
   MeshFile meshA, meshB;
   std::vector<Transform> poses;
-
-  explicit PoseInput(const QueryArguments& a)
-      : meshA(readMeshFile(a.meshA)),
-        meshB(readMeshFile(a.meshB)),
-        poses(posesOf(a, meshA.mesh, meshB.mesh)) {
-    checkRepeats(a, poses.size() * (a.deform.size() + 1), "pose");
-    std::vector<std::filesystem::path> inputs = {a.meshA, a.meshB};
-    inputs.insert(inputs.end(), a.deform.begin(), a.deform.end());
-    requireNotAnInput(a.savePoses, "--save-poses", inputs, "the query");
-    if (a.savePoses) writePoses(*a.savePoses, poses);
-  }
 };
+
+PoseInput readPoseInput(const QueryArguments& a) {
+  PoseInput input{readMeshAndPrintNotes(a.meshA), readMeshAndPrintNotes(a.meshB), {}};
+  input.poses = posesOf(a, input.meshA.mesh, input.meshB.mesh);
+  checkRepeats(a, input.poses.size() * (a.deform.size() + 1), "pose");
+  return input;
+}
+
+/// Writes the poses to the file of --save-poses, if it is given.
+void savePoses(const QueryArguments& a, const std::vector<Transform>& poses) {
+  std::vector<std::filesystem::path> inputs = {a.meshA, a.meshB};
+  inputs.insert(inputs.end(), a.deform.begin(), a.deform.end());
+  requireNotAnInput(a.savePoses, "--save-poses", inputs, "the query");
+  if (a.savePoses) writePoses(*a.savePoses, poses);
+}
 
 /// Returns the vector of --direction. @throws InputError if it is 0.
 std::optional<Vec3> directionOf(const QueryArguments& a) {
@@ -110,7 +115,8 @@ std::optional<Vec3> directionOf(const QueryArguments& a) {
 /// Computes and prints bounds of the penetration depth at many poses. @returns the exit status.
 int queryDepth(const QueryArguments& a, const NamedQuery& query) {
   const std::optional<Vec3> direction = directionOf(a);
-  PoseInput input(a);
+  PoseInput input = readPoseInput(a);
+  savePoses(a, input.poses);
   const BatchResult result = runDepths(std::move(input.meshA.mesh), std::move(input.meshB.mesh),
                                        input.poses, direction, static_cast<int>(a.repeat));
   printCsv(query, result);
@@ -123,7 +129,8 @@ int queryDepth(const QueryArguments& a, const NamedQuery& query) {
 int queryConvexHulls(const QueryArguments& a) {
   requireHullQuery(*a.hulls, a.query, a.direction.has_value(), a.coherent);
   const std::optional<Vec3> direction = directionOf(a);
-  const PoseInput input(a);
+  const PoseInput input = readPoseInput(a);
+  savePoses(a, input.poses);
   queryHulls({input.meshA.mesh, a.meshA}, {input.meshB.mesh, a.meshB}, input.poses, *a.hulls,
              a.query, direction, a.coherent, static_cast<int>(a.repeat));
   return kDone;
@@ -139,7 +146,8 @@ int queryTrees(const QueryArguments& a, const NamedQuery& query) {
   if (!testsOverlap(query.kind))
     requireDefaultOverlap(trees, "--query interference or contacts", query.name);
   if (!a.deform.empty()) requireFrames(query, trees);
-  const PoseInput input(a);
+  const PoseInput input = readPoseInput(a);
+  savePoses(a, input.poses);
   const Batch batch{input.meshA.mesh,
                     input.meshB.mesh,
                     input.poses,

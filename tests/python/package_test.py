@@ -288,6 +288,17 @@ class Problems(unittest.TestCase):
         other = problem.edited(planner="RRTConnect", params={"range": "0.5"}).edited(planner="PRM")
         self.assertIn("PRM", corridor.solve(pickle.loads(pickle.dumps(other)), time=0.2).figures["planner"])
 
+    def test_notes_on_mesh_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = pathlib.Path(folder, "mm.obj")
+            mesh.write_text("# units: mm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n")
+            problem = corridor.Problem(
+                corridor.rigid_body(shapes.sphere(0.1), [[-2] * 3, [2] * 3]), {"wall": shapes.mesh_file(str(mesh))}
+            )
+        notes = "\n".join(problem.notes)
+        self.assertIn('line 1 says "units: mm"', notes)
+        self.assertIn("lines and points have no volume", notes)
+
     def test_callers_may_change_what_they_passed(self):
         base = at(0, 0, 0)
         robot = corridor.urdf(SOURCE / "robots/arm6/arm6.urdf", base=base)

@@ -178,6 +178,18 @@ TEST_F(QueryCommand, HugeHullsAreNoted) {
               HasSubstr("note: a.obj: a coordinate is not within 1e-132 to 1e132 m"));
 }
 
+/// Content of a mesh file that is not read is named, as by all commands.
+TEST_F(QueryCommand, NotesOnMeshFiles) {
+  write("b.obj", "# units: mm\nv 1 1 -1\nv 1 1 1\nv 3 1 1\nf 1 2 3\nl 1 2\n");
+  write("motions.txt", kStill + "0 0 9 " + kStill + "0 0 10\n");
+  for (const char* const input :
+       {"--poses poses.txt", "--motions motions.txt", "--poses poses.txt --hulls every-vertex"}) {
+    const std::string err = query(input).err;
+    EXPECT_THAT(err, HasSubstr("note: b.obj: lines and points have no volume")) << input;
+    EXPECT_THAT(err, HasSubstr("note: b.obj: line 1 says \"units: mm\"")) << input;
+  }
+}
+
 TEST_F(QueryCommand, HullsOnBadInput) {
   const auto fault = [&](const std::string& options) {
     const Result result = query("--poses poses.txt " + options);
