@@ -11,18 +11,17 @@
 #include "collision/geometry/assimp_import.h"
 
 int main(int count, char** words) {
-  // The arguments are FILE RULES SECONDS BYTES.
-  if (count != 5) return 2;
+  // The arguments are FILE SECONDS BYTES.
+  if (count != 4) return 2;
   const std::string file = words[1];
-  const auto rules = static_cast<corridor::AssimpRules>(std::atoi(words[2]));
-  const auto seconds = static_cast<rlim_t>(std::atof(words[3])) + 1;
+  const auto seconds = static_cast<rlim_t>(std::atof(words[2])) + 1;
   const rlimit time{seconds, seconds}, none{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &none);
-  corridor::limitMemory(std::strtoull(words[4], nullptr, 10));
+  corridor::limitMemory(std::strtoull(words[3], nullptr, 10));
 
   std::set_new_handler([] { ::_exit(corridor::kOutOfMemoryStatus); });
-  const std::string bytes = corridor::packed(corridor::importByAssimp(file, rules));
+  const std::string bytes = corridor::packed(corridor::importByAssimp(file));
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t n = ::write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);
     if (n < 0) ::_exit(1);

@@ -59,40 +59,37 @@ std::filesystem::path AssimpLimits::assimpProgram() {
   return {};
 }
 
-AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
-                            const AssimpLimits& limits) {
+AssimpImport readWithAssimp(const std::string& file, const AssimpLimits& limits) {
   const auto fail = [&](const std::string& what) { throw InputError(Fault{file, 0, what}); };
   const std::string instead = "; save the mesh as OBJ, STL, PLY or OFF";
   if (limits.program.empty())
-    fail("assimp is needed for this format, and its program " CORRIDOR_ASSIMP_PROGRAM
+    fail("assimp is needed for OMPL.app's files, and its program " CORRIDOR_ASSIMP_PROGRAM
          " is not found; install it with the library, or save the mesh as OBJ, STL, PLY or OFF");
   const std::string needed =
-      "assimp is needed for this format, and its program " + limits.program.string() + ' ';
+      "assimp is needed for OMPL.app's files, and its program " + limits.program.string() + ' ';
   AssimpImport result;
   try {
-    ProgramCall call{{limits.program.string(), file, std::to_string(static_cast<int>(rules)),
-                      text(limits.seconds), std::to_string(limits.bytes)}};
+    ProgramCall call{
+        {limits.program.string(), file, text(limits.seconds), std::to_string(limits.bytes)}};
     call.seconds = limits.seconds;
     call.bytes = limits.bytes;
     const ProgramEnd end = runProgram(call);
     if (end.why == ProgramEnd::Why::timedOut)
-      fail("assimp, which reads this format, took more than " + text(limits.seconds) +
+      fail("assimp, which OMPL.app uses, took more than " + text(limits.seconds) +
            " s and was stopped" + instead);
     if (end.why == ProgramEnd::Why::tooMuchOutput)
-      fail("assimp, which reads this format, returns more than " +
-           std::to_string(limits.bytes >> 20) + " MiB for this file" + instead);
+      fail("assimp, which OMPL.app uses, returns more than " + std::to_string(limits.bytes >> 20) +
+           " MiB for this file" + instead);
     if (end.exitStatus == kOutOfMemoryStatus)
-      fail("assimp, which reads this format, needs more than " +
-           std::to_string(limits.bytes >> 20) + " MiB of memory for this file" + instead);
+      fail("assimp, which OMPL.app uses, needs more than " + std::to_string(limits.bytes >> 20) +
+           " MiB of memory for this file" + instead);
     // If the status is lost, a complete answer shows that the program succeeded.
     if (end.exitStatus == 127) fail(needed + "cannot be run");
     if (!unpack(end.out, result))
-      fail("assimp, which reads this format, ended without an answer (" + textOf(end) + ")" +
-           instead);
+      fail("assimp, which OMPL.app uses, ended without an answer (" + textOf(end) + ")" + instead);
   } catch (const std::system_error& error) {
     fail(needed + "cannot be started: " + error.code().message());
   }
-  if (!result.faults.empty()) throw InputError(std::move(result.faults));
   if (!result.error.empty()) fail("cannot be read by assimp: " + result.error);
   return result;
 }

@@ -29,7 +29,6 @@ struct AssimpLimits {
 /// function at the same time.
 /// @throws InputError: assimp cannot read the file, crashes, or exceeds a limit; or the helper
 /// program is missing or cannot be started.
-AssimpImport readWithAssimp(const std::string& file, AssimpRules rules,
-                            const AssimpLimits& limits = {});
+AssimpImport readWithAssimp(const std::string& file, const AssimpLimits& limits = {});
 
 }  // namespace corridor

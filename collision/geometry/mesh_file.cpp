@@ -1,18 +1,19 @@
 #include "collision/geometry/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <utility>
 
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_process.h"
-#include "collision/geometry/collada_asset.h"
-#include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/file_frame.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/geometry/mesh_readers.h"
-#include "collision/geometry/vertex_welder.h"
 
 namespace corridor {
 namespace {
@@ -23,119 +24,52 @@ std::string lowerExtension(const std::filesystem::path& file) {
   return lowered(file.extension().string());
 }
 
-/// A mesh as read, without scale or rotation.
-struct StoredMesh {
-  MeshFile file;
-  double fileUnit = 0;  ///< metres; 0: the format has none
-};
+/// The formats that are read, for messages.
+constexpr const char* kFormats = "OBJ, STL, PLY, OFF, Collada or glTF";
+/// A format that OMPL.app's problems may use, which assimp reads. assimp lays its meshes on their
+/// side (a stored (x, y, z) arrives as (x, z, -y)) and applies a scale of the file.
+constexpr const char* kOmplAppFormat = ".3ds";
 
-using Reader = ReadMesh (*)(std::string_view, MeshFaults&);
+/// The maximum size of a file of a scene, 1 GiB: its text is kept in memory as a tree.
+constexpr std::uint64_t kMostSceneBytes = std::uint64_t{1} << 30;
 
-/// Returns Corridor's own reader of an extension; null if there is none.
-Reader ownReader(const std::string& extension) {
-  return extension == ".obj"   ? readObj
-         : extension == ".stl" ? readStl
-         : extension == ".ply" ? readPly
-         : extension == ".off" ? readOff
-                               : nullptr;
+/// Returns whether an extension is one of a format that is read.
+bool isMeshExtension(const std::string& extension) {
+  static constexpr std::array<std::string_view, 8> all{".obj", ".stl",  ".ply", ".off",
+                                                       ".dae", ".gltf", ".glb", ".3mf"};
+  return std::find(all.begin(), all.end(), extension) != all.end();
 }
 
-StoredMesh readOwn(const std::filesystem::path& file, Reader reader, MeshFaults& faults) {
-  ReadMesh read = reader(readFile(file, kWhat), faults);
-  StoredMesh stored;
-  stored.file.mesh = std::move(read.mesh);
-  stored.file.format = std::move(read.format);
-  stored.file.notes = std::move(read.notes);
-  stored.file.statedUnits = std::move(read.statedUnits);
-  return stored;
+/// Reads a file of a format that is read, without scale or rotation.
+ReadMesh readStored(const std::filesystem::path& file, const std::string& extension,
+                    MeshFaults& faults) {
+  if (extension == ".obj") return readObj(readFile(file, kWhat), faults);
+  if (extension == ".stl") return readStl(readFile(file, kWhat), faults);
+  if (extension == ".ply") return readPly(readFile(file, kWhat), faults);
+  if (extension == ".off") return readOff(readFile(file, kWhat), faults);
+  if (extension == ".dae") return readCollada(readFile(file, kWhat, kMostSceneBytes), faults);
+  if (extension == ".gltf")
+    return readGltf(file.string(), readFile(file, kWhat, kMostSceneBytes), faults);
+  if (extension == ".glb")
+    return readGlb(file.string(), readFile(file, kWhat, kMostSceneBytes), faults);
+  requireFile(file, kWhat, kMostSceneBytes);
+  return readThreeMf(file.string(), faults);
 }
 
-/// Returns the mesh with equal vertices merged, and without unused vertices. (assimp repeats a
-/// vertex for each of its normals.)
-TriangleMesh welded(const TriangleMesh& mesh) {
-  VertexWelder welder(mesh.vertices.size());
-  TriangleMesh result;
-  result.triangles = mesh.triangles;
-  for (auto& triangle : result.triangles) {
-    for (std::uint32_t& corner : triangle) corner = welder.addOrFind(mesh.vertices[corner]);
-  }
-  result.vertices = welder.takePoints();
-  return result;
-}
-
-void requireSound(const TriangleMesh& mesh, MeshFaults& faults, const char* hint = "") {
+void requireSound(const TriangleMesh& mesh, MeshFaults& faults) {
   if (mesh.triangles.empty()) {
     faults.fail(
         0,
         "the mesh has no faces; triangles or polygons are needed, lines and points are not read");
   }
-  if (const auto complaint = checkMesh(mesh)) faults.fail(0, *complaint + hint);
+  if (const auto complaint = checkMesh(mesh)) faults.fail(0, *complaint);
 }
-
-template <std::size_t n>
-bool contains(const std::array<std::string_view, n>& formats, const std::string& extension) {
-  return std::find(formats.begin(), formats.end(), extension) != formats.end();
-}
-
-/// Formats that assimp reads, but not reliably: it misreads their files in many ways, of which it
-/// reports few.
-constexpr std::array<std::string_view, 3> kMisread{".fbx", ".x3d", ".amf"};
 
 /// Returns the text of the fault for a file with an unsupported extension.
 std::string notRead(const std::string& extension) {
-  if (contains(kMisread, extension))
-    return "the extension " + inQuotes(extension) +
-           " is not supported, because the library that could read it drops or moves parts of such "
-           "files without a message; save the mesh as glTF, Collada, OBJ, STL, PLY or OFF";
   return (extension.empty() ? std::string("a name without an extension")
                             : "the extension " + inQuotes(extension)) +
-         " is not supported; save the mesh as OBJ, STL, PLY, OFF or glTF";
-}
-
-/// The maximum size of a file for assimp, 1 GiB: for a larger file assimp would need more than its
-/// 4 GiB of memory.
-constexpr std::uint64_t kMostAssimpBytes = std::uint64_t{1} << 30;
-
-/// Checks a file before assimp reads it: its size, whether it is an ordinary file, Collada's unit
-/// and up-axis, and the lines of OBJ. @throws InputError if a check fails.
-/// @returns Collada's up-axis; nullopt for other formats.
-std::optional<char> requireForAssimp(const std::filesystem::path& file,
-                                     const std::string& extension, MeshFaults& faults,
-                                     std::vector<std::string>& notes) {
-  if (extension == ".dae")
-    return checkColladaAsset(readFile(file, kWhat, kMostAssimpBytes), faults, notes);
-  if (extension == ".obj") checkObjForAssimp(readFile(file, kWhat, kMostAssimpBytes), faults);
-  requireFile(file, kWhat, kMostAssimpBytes);
-  return std::nullopt;
-}
-
-constexpr const char* floatHint = " (this format is read in float, which ends at 3.4e38)";
-
-/// Returns the mesh of an import with its polygons cut and its equal vertices merged.
-TriangleMesh cutAndWelded(AssimpImport& import, MeshFaults& faults) {
-  requireSound(import.mesh, faults, floatHint);
-  cutPolygons(import.mesh, import.polygons, faults, import.notes);
-  return welded(import.mesh);
-}
-
-StoredMesh readForeign(const std::filesystem::path& file, const std::string& extension,
-                       bool unitGiven, MeshFaults& faults) {
-  if (!contains(kAssimpFormats, extension)) faults.fail(0, notRead(extension));
-  StoredMesh stored;
-  const std::optional<char> up = requireForAssimp(file, extension, faults, stored.file.notes);
-  AssimpImport import = readWithAssimp(file.string(), AssimpRules::Stored);
-  if (!unitGiven && extension == ".3mf")
-    faults.fail(0, "the file has a unit, " + shortest(import.fileUnit) +
-                       " m, which is not applied; state the unit" + howToState(import.fileUnit));
-  stored.file.mesh = cutAndWelded(import, faults);
-  stored.file.format = std::move(import.format);
-  stored.file.floatVertices = true;
-  for (std::string& note : import.notes) stored.file.notes.push_back(std::move(note));
-  stored.file.otherFiles = std::move(import.otherFiles);
-  stored.fileUnit = import.fileUnit;
-  stored.file.isCollada = up.has_value();
-  stored.file.fileUp = up || import.up == 0 ? up : std::optional(import.up);
-  return stored;
+         " is not supported; save the mesh as " + kFormats;
 }
 
 std::string unitRule(const MeshFileOptions& options, double fileUnit) {
@@ -187,13 +121,23 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
   checkOptions(options, faults);
   if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowerExtension(file);
-  const Reader own = ownReader(extension);
-  StoredMesh stored = own ? readOwn(file, own, faults)
-                          : readForeign(file, extension, options.metresPerUnit.has_value(), faults);
-  MeshFile result = std::move(stored.file);
-  requireSound(result.mesh, faults);
+  if (!isMeshExtension(extension)) faults.fail(0, notRead(extension));
+  ReadMesh read = readStored(file, extension, faults);
+  if (extension == ".3mf" && !options.metresPerUnit)
+    faults.fail(0, "the file has a unit, " + shortest(read.fileUnit) +
+                       " m, which is not applied; state the unit" + howToState(read.fileUnit));
+  requireSound(read.mesh, faults);
+  MeshFile result;
+  result.mesh = std::move(read.mesh);
+  result.format = std::move(read.format);
+  result.notes = std::move(read.notes);
+  result.otherFiles = std::move(read.otherFiles);
+  result.statedUnits = std::move(read.statedUnits);
+  result.isCollada = extension == ".dae";
+  result.facesOnly = read.fileUnit > 0;
+  if (read.up != 0) result.fileUp = read.up;
 
-  const FileFrame frame(options, stored.fileUnit > 0 ? stored.fileUnit : 1);
+  const FileFrame frame(options, read.fileUnit > 0 ? read.fileUnit : 1);
   if (!frame.isIdentity()) {
     for (Vec3& vertex : result.mesh.vertices) vertex = frame * vertex;
     if (checkMesh(result.mesh)) {
@@ -201,9 +145,9 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
                          " m per unit are too large for a double");
     }
   }
-  result.unitRule = unitRule(options, stored.fileUnit);
-  if (extension == ".3mf" && stored.fileUnit > 0 && *options.metresPerUnit != stored.fileUnit)
-    result.notes.push_back("the file's own unit, " + shortest(stored.fileUnit) +
+  result.unitRule = unitRule(options, read.fileUnit);
+  if (extension == ".3mf" && *options.metresPerUnit != read.fileUnit)
+    result.notes.push_back("the file's own unit, " + shortest(read.fileUnit) +
                            " m, is not the stated one, " + shortest(*options.metresPerUnit) +
                            " m, which is used");
   if (auto note = noteOnUnits(result.statedUnits, frame.scale()))
@@ -212,42 +156,74 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
   return result;
 }
 
+bool hasMeshExtension(const std::filesystem::path& file) {
+  return isMeshExtension(lowerExtension(file));
+}
+
 std::string noteOnUp(const std::string& files, const std::string& whatAppliesIt) {
   return "the up-axis of " + files + " is not z; it is not applied (ROS's rule), and " +
          whatAppliesIt + " applies it";
 }
 
+namespace {
+
+/// Applies Collada's unit and turns its up-axis to y, as assimp does. glTF and 3MF stay as they
+/// are.
+void toOmplApp(ReadMesh& read, const std::string& extension) {
+  if (extension != ".dae") return;
+  for (Vec3& v : read.mesh.vertices) {
+    v *= read.fileUnit;
+    if (read.up == 'x') v = Vec3(-v.y(), v.x(), v.z());
+    if (read.up == 'z') v = Vec3(v.x(), v.z(), -v.y());
+  }
+}
+
+/// Adds a fault if the bounds of a mesh are not those of assimp's import: then OMPL.app, which uses
+/// assimp, plans with another mesh.
+void compareBounds(const TriangleMesh& mesh, const TriangleMesh& byAssimp, MeshFaults& faults) {
+  const auto boundsOf = [](const TriangleMesh& of) {
+    std::array<Vec3, 2> bounds{Vec3::Constant(HUGE_VAL), Vec3::Constant(-HUGE_VAL)};
+    for (const auto& triangle : of.triangles)
+      for (const std::uint32_t corner : triangle) {
+        bounds[0] = bounds[0].cwiseMin(of.vertices[corner]);
+        bounds[1] = bounds[1].cwiseMax(of.vertices[corner]);
+      }
+    return bounds;
+  };
+  const auto ours = boundsOf(mesh), theirs = boundsOf(byAssimp);
+  const double size = (ours[1] - ours[0]).norm() + 1e-6 * (ours[0].norm() + ours[1].norm());
+  if (!((ours[0] - theirs[0]).norm() <= 1e-2 * size && (ours[1] - theirs[1]).norm() <= 1e-2 * size))
+    faults.fail(
+        0,
+        "assimp, which OMPL.app uses, reads other geometry than the file has; save it again "
+        "as triangles");
+}
+
+}  // namespace
+
 OmplAppMesh readOmplAppMesh(const std::filesystem::path& file) {
   MeshFaults faults(file.string());
   if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
   const std::string extension = lowerExtension(file);
-  if (!contains(kAssimpFormats, extension) && !contains(kOwnFormats, extension) &&
-      extension != kOmplAppFormat)
+  if (!isMeshExtension(extension) && extension != kOmplAppFormat)
     faults.fail(0, notRead(extension));
   OmplAppMesh result;
-  requireForAssimp(file, extension, faults, result.notes);
-  const Reader own = ownReader(extension);
-  MeshFile read;
-  if (own) read = readOwn(file, own, faults).file;
-  AssimpImport import = readWithAssimp(file.string(), AssimpRules::OmplApp);
-  requireSound(import.mesh, faults, floatHint);
-  if (own && import.mesh.triangles.size() != read.mesh.triangles.size())
-    faults.fail(0, "assimp, which OMPL.app uses, reads " +
-                       std::to_string(import.mesh.triangles.size()) + " triangles of the file's " +
-                       std::to_string(read.mesh.triangles.size()) +
-                       "; save it again as triangles, without comments among them");
+  ReadMesh read;
+  if (isMeshExtension(extension)) read = readStored(file, extension, faults);
+  toOmplApp(read, extension);
+  AssimpImport import = readWithAssimp(file.string());
+  requireSound(import.mesh, faults);
   result.importedVertices = static_cast<int>(import.mesh.vertices.size());
   for (const Vec3& vertex : import.mesh.vertices) result.vertexAverage += vertex;
   result.vertexAverage /= result.importedVertices;
-  // assimp can drop facets of the formats with a reader of our own, and find as many others.
-  if (own) {
-    result.mesh = std::move(read.mesh);
+  if (extension == kOmplAppFormat) {
+    result.mesh = std::move(import.mesh);
   } else {
-    import = readWithAssimp(file.string(), AssimpRules::OmplAppPolygons);
-    result.mesh = cutAndWelded(import, faults);
+    requireSound(read.mesh, faults);
+    compareBounds(read.mesh, import.mesh, faults);
+    result.mesh = std::move(read.mesh);
   }
-  for (std::string& note : import.notes) result.notes.push_back(std::move(note));
-  for (std::string& note : read.notes) result.notes.push_back(std::move(note));
+  result.notes = std::move(read.notes);
   result.otherFiles = std::move(import.otherFiles);
   return result;
 }

@@ -24,7 +24,7 @@ struct MeshFileOptions {
 /// A mesh and how it was read.
 struct MeshFile {
   TriangleMesh mesh;
-  std::string format;  ///< "OBJ", "STL (binary)", "PLY (ASCII)" …, or assimp's name of the format
+  std::string format;    ///< "OBJ", "STL (binary)", "PLY (ASCII)", "Collada" …
   std::string unitRule;  ///< one line for people: which unit was used, and why
   std::string upRule;    ///< one line for people: which rotation was applied, and why
   /// The up-axis that a Collada file states ('x', 'y' or 'z'; 'y' if it states none); 'y' for glTF.
@@ -32,8 +32,8 @@ struct MeshFile {
   /// the axis that the caller sets in `MeshFileOptions::up`.
   std::optional<char> fileUp = {};
   bool isCollada = false;
-  /// True if assimp read the file, and therefore rounded the vertices to float.
-  bool floatVertices = false;
+  /// True for Collada, glTF and 3MF: the mesh has no vertices without a face.
+  bool facesOnly = false;
   std::vector<std::string> notes;  ///< on content that is not read, without the file's name
   /// The other files that were read with it, such as the buffers of a glTF file.
   std::vector<std::string> otherFiles;
@@ -42,20 +42,22 @@ struct MeshFile {
   std::vector<StatedUnit> statedUnits = {};
 };
 
-/// Reads a mesh file. The extension decides which reader is used. Corridor's own readers read OBJ,
-/// STL, PLY and OFF in double. assimp reads Collada, glTF 2.0 and 3MF, in a process of its own with
-/// limits of time and memory. This function applies scale and rotation once.
+/// Reads a mesh file in double: OBJ, STL, PLY, OFF, Collada, glTF 2.0 or 3MF, by its extension. The
+/// transforms of a scene's nodes are applied. This function applies scale and rotation once.
 /// Queries use the rounded coordinates that result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …
 MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
 
+/// Returns whether the extension of a name is one that `readMeshFile` reads.
+bool hasMeshExtension(const std::filesystem::path& file);
+
 /// Returns the text of a note on files whose `fileUp` is not z and was not applied.
 std::string noteOnUp(const std::string& files, const std::string& whatAppliesIt);
 
-/// A mesh as OMPL.app places it: read with OMPL.app's import steps. The transforms of nodes are
-/// applied. For Collada, the unit and the rotation to y-up are applied, too. OBJ, STL, PLY and OFF
-/// have no frame: their triangles come from Corridor's own readers.
+/// A mesh as OMPL.app places it. For Collada, the unit and the rotation to y-up are applied, as
+/// assimp applies them, which OMPL.app uses. The triangles come from Corridor's own readers, except
+/// those of 3DS, which assimp reads.
 struct OmplAppMesh {
   TriangleMesh mesh;
   /// The mean of all imported vertices. Each vertex counts as often as assimp keeps it.

@@ -18,6 +18,9 @@ struct ReadMesh {
   std::string format;                   ///< name of the format for messages, e.g. "STL (binary)"
   std::vector<std::string> notes = {};  ///< on content that is not read
   std::vector<StatedUnit> statedUnits = {};  ///< in comments, headers and names; not applied
+  double fileUnit = 0;  ///< metres, by the file or its format; 0: none; not applied
+  char up = 0;          ///< the up-axis that the file or its format states; 0: none; not applied
+  std::vector<std::string> otherFiles = {};  ///< that were read with it
 };
 
 ReadMesh readObj(std::string_view text, MeshFaults& faults);
@@ -25,8 +28,11 @@ ReadMesh readStl(std::string_view bytes, MeshFaults& faults);
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults);
 ReadMesh readOff(std::string_view text, MeshFaults& faults);
 
-/// Checks an OBJ file that assimp reads: its keywords, as `readObj` does, and lines that assimp
-/// drops. All other faults are left to assimp. @throws InputError if there is a fault.
-void checkObjForAssimp(std::string_view text, MeshFaults& faults);
+/// Readers of scenes: the mesh is in the frame of the file's scene, in units of the file.
+ReadMesh readCollada(std::string_view text, MeshFaults& faults);
+/// @param file the file's name, beside which the buffers are
+ReadMesh readGltf(const std::string& file, std::string_view json, MeshFaults& faults);
+ReadMesh readGlb(const std::string& file, std::string_view bytes, MeshFaults& faults);
+ReadMesh readThreeMf(const std::string& file, MeshFaults& faults);
 
 }  // namespace corridor

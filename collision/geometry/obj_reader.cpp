@@ -168,33 +168,4 @@ ReadMesh readObj(std::string_view text, MeshFaults& faults) {
   return ObjReader(text, faults).read();
 }
 
-void checkObjForAssimp(std::string_view text, MeshFaults& faults) {
-  if (text.starts_with("\xEF\xBB\xBF#")) text.remove_prefix(3);
-  bool continued = false;  // the line before ends with a backslash
-  for (int number = 1; !text.empty(); ++number) {
-    std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.find('\r') != line.npos)
-      faults.add(number,
-                 "has a carriage return that ends no line, where assimp may drop what follows; end "
-                 "all lines with LF or CR LF");
-    const std::string_view keyword = TextCursor(line).wordInLine();
-    const bool isFirst = !std::exchange(continued, line.ends_with('\\'));
-    if (!isFirst || keyword.empty()) continue;
-    if (keyword.starts_with('#')) {
-      if (continued)
-        faults.add(number,
-                   "the comment ends with a backslash, so assimp drops the next line; remove it");
-      continue;
-    }
-    checkKeyword(keyword, number, faults);
-    if (keyword == "cstype")
-      faults.add(number, "assimp drops the lines from cstype on; write faces with v and f");
-    if ((keyword == "v" || keyword == "f") && isBlank(line.front()))
-      faults.add(number, "assimp drops a line that begins with a blank; remove the blank");
-  }
-  faults.throwIfAny();
-}
-
 }  // namespace corridor

@@ -35,7 +35,6 @@ ordered_json meshJson(const MeshFile& file) {
   ordered_json j = {{"format", file.format},
                     {"unit_rule", file.unitRule},
                     {"up_rule", file.upRule},
-                    {"float_vertices", file.floatVertices},
                     {"vertices", file.mesh.vertices.size()},
                     {"triangles", health.triangles},
                     {"min", numbersJson(health.min)},
@@ -100,7 +99,6 @@ int inspectMeshFile(const InspectArguments& a) {
   out.line("format", file.format);
   out.line("unit", file.unitRule);
   out.line("up-axis", file.upRule);
-  if (file.floatVertices) out.line("precision", "float: read by assimp");
   for (const std::string& note : file.notes) out.line("note", note);
   out.line("vertices", grouped(file.mesh.vertices.size()));
   out.line("triangles", grouped(health.triangles));

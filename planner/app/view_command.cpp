@@ -12,7 +12,6 @@
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
 #include "collision/core/whole_file.h"
-#include "collision/geometry/assimp_import.h"
 #include "collision/geometry/mesh_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/interrupt.h"
@@ -20,6 +19,7 @@
 #include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/app/read_mesh.h"
 #include "planner/checker/left_out.h"
 #include "planner/problem/problem.h"
 #include "planner/view/browser_picture.h"
@@ -82,7 +82,7 @@ int viewVolumes(const ViewArguments& a) {
     throw InputError(Fault{"--" + wrong->key, 0, wrong->text});
   std::optional<ViewDirection> from;
   if (a.from) from = viewDirection(*a.from, "--from");
-  const MeshFile mesh = readMeshFile(a.problem);
+  const MeshFile mesh = readMeshAndPrintNotes(a.problem);
   const std::uint64_t level = a.level.value_or(3);
   const VolumePicture picture = volumePicture(mesh.mesh, {*a.volume, "", ""}, level, from);
   if (a.level && level >= picture.levels)
@@ -109,11 +109,7 @@ int viewVolumes(const ViewArguments& a) {
 
 /// @throws InputError if a mesh is given where a problem is needed.
 void refuseMesh(const std::string& file) {
-  const std::string extension = lowered(std::filesystem::path(file).extension().string());
-  const auto is = [&](const auto& formats) {
-    return std::find(formats.begin(), formats.end(), extension) != formats.end();
-  };
-  if (is(kOwnFormats) || is(kAssimpFormats))
+  if (hasMeshExtension(file))
     throw InputError(Fault{file, 0,
                            "is a mesh, and view draws a problem; add --volume NAME to draw the "
                            "bounding volumes of a mesh"});

@@ -153,7 +153,6 @@ std::optional<CfgMesh> readMesh(const IniFile& ini, const std::string& key, Prob
         path.extension().string().substr(path.has_extension() ? 1 : 0) + ", as OMPL.app reads it";
     file.unitRule = "1 m per unit (OMPL.app knows no units)";
     file.upRule = "rotated to y up by assimp's rule, as in OMPL.app";
-    file.floatVertices = true;
     file.notes = mesh.read.notes;
     mesh.shape.mesh = std::make_shared<const MeshFile>(std::move(file));
     return mesh;

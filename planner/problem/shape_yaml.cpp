@@ -272,7 +272,7 @@ std::optional<PlacedShape> readShape(const YamlMap& map, const ShapePlace& place
     const auto mesh = files.meshes.read(map, hull ? "mesh" : "convex", shape.file);
     for (const std::string& text : mesh->notes)
       shape.notes.push_back({text + ": " + shape.file.string(), NoteWeight::coverage});
-    if (!hull && mesh->floatVertices)  // a format that assimp reads
+    if (!hull && mesh->facesOnly)
       shape.notes.push_back(
           {"the hull is that of the corners of faces, because vertices without a "
            "face are not read in this format: " +

@@ -92,13 +92,5 @@ TEST_F(LineEnds, BeforeBinaryData) {
   }
 }
 
-/// assimp is not trusted to end lines there.
-TEST_F(LineEnds, ObjReadByAssimp) {
-  const auto file = write("a.obj", "v 0 0 0\r\nv 1 0 0\nv 0 1 0\ng a\rf 1 2 3\nf 1 2 3\n");
-  EXPECT_EQ(complaintOf([&] { readOmplAppMesh(file); }),
-            "a.obj:4: has a carriage return that ends no line, where assimp may drop what follows; "
-            "end all lines with LF or CR LF");
-}
-
 }  // namespace
 }  // namespace corridor::test

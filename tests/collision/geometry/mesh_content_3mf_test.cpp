@@ -7,8 +7,10 @@ namespace corridor::test::mesh_content {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 const MeshFileOptions inMetre{1, {}};
 
@@ -51,7 +53,7 @@ std::string threeMf(const std::string& attributes, const std::string& resources 
 )" + resources +
             "</resources>\n<build>" + build + "</build></model>"}});
 }
-const std::string model = "a.3mf (3D/3dmodel.model)";
+const std::string model = "a.3mf";
 
 TEST_F(MeshContent, ThreeMfArchives) {
   const MeshFile file = read("a.3mf", threeMf("unit=\"meter\""), inMetre);
@@ -66,17 +68,17 @@ TEST_F(MeshContent, ThreeMfArchives) {
   EXPECT_EQ(fault({{"_rels/.rels", relations},
                    {"3D/3dmodel.model", "<model/>"},
                    {"3D/Objects/o.MODEL", "<model/>"}}),
-            "a.3mf: the archive has 2 models, of which assimp reads one" + instead);
+            "a.3mf: the archive has 2 models, which is not supported" + instead);
   const std::string noModel =
       "a.3mf: the archive's _rels/.rels must name its model, 3D/3dmodel.model" + instead;
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other", "<model/>"}}), noModel);
   EXPECT_EQ(fault({{"3D/3dmodel.model", "<model/>"}}), noModel);
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other.model", "<model/>"}}), noModel)
-      << "a model that is not the one that assimp reads";
+      << "a model that is not the one that the relations name";
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<other/>"}}),
-            model + ": its model is no complete XML file whose root is <model>");
+            model + ":1: the root element must be <model>, not <other>");
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<model></model>\n<x/>"}}),
-            model + ":2: <x> is a second root; the file needs one root, <model>");
+            model + ":2: something comes before or after the root element");
   EXPECT_EQ(complaint("a.3mf", "hello", inMetre), "a.3mf: the file is no ZIP archive" + instead);
   std::string damaged = threeMf("");
   damaged.replace(damaged.find("<vertices>"), 1, "[");
@@ -114,19 +116,19 @@ TEST_F(MeshContent, ThreeMfReferences) {
   };
   const std::string missing = " names an object that is not in the model; correct its objectid";
   EXPECT_EQ(fault("<item objectid=\"1\"/><item objectid=\"7\"/>"), model + ":5: <item>" + missing);
-  EXPECT_EQ(fault("<item/>"), model + ":5: <item>" + missing);
+  EXPECT_EQ(fault("<item/>"), model + ":5: <item> has no objectid; add it, or remove the element");
   const std::string of7 =
       "<object id=\"2\"><components><component objectid=\"7\"/></components></object>";
   EXPECT_EQ(fault("<item objectid=\"2\"/>", of7), model + ":4: <component>" + missing);
   EXPECT_EQ(fault("<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 6\"/>"),
             model + ":5: the transform of <item> needs 12 decimal numbers");
   EXPECT_EQ(fault("<item objectid=\"1\" p:path=\"/3D/o.model\"/>"),
-            model + ":5: <item> is in another model, which assimp does not read" + instead);
+            model + ":5: <item> is in another model, which is not supported" + instead);
   EXPECT_EQ(fault("<item objectid=\"1\"/>", "<object id=\"1\"/>"),
-            model +
-                ":4: the id \"1\" of <object> is used twice or is no whole number; give each "
-                "resource a number of its own");
-  EXPECT_EQ(fault("<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 6 7\"/>"), "no complaint");
+            model + ":4: the id 1 is used twice; give each resource a number of its own");
+  EXPECT_EQ(fault("<item objectid=\"2\"/>",
+                  "<object id=\"2\"><components><component objectid=\"2\"/></components></object>"),
+            "a.3mf: nodes nest deeper than 500, or a node contains itself");
   EXPECT_EQ(fault("<item objectid=\"1\" Transform=\"1 0 0 0 1 0 0 0 1 5 6 7\"/>"),
             model + ":5: the attribute \"Transform\" of <item> is not read; write \"transform\"");
   const std::string unused = "<object id=\"2\"><mesh><vertices/><triangles/></mesh></object>";
@@ -134,14 +136,62 @@ TEST_F(MeshContent, ThreeMfReferences) {
               ElementsAre("objects that are in no item of the build are not read"));
 }
 
+/// A row vector times the matrix: the last three numbers are the translation.
+TEST_F(MeshContent, ThreeMfTransforms) {
+  const auto placed = [&](const std::string& resources, const std::string& build) {
+    return read("a.3mf", threeMf("unit=\"meter\"", resources, build), inMetre).mesh.vertices;
+  };
+  const std::string turned = "transform=\"0 1 0 -1 0 0 0 0 1 5 6 7\"";
+  EXPECT_THAT(placed("", "<item objectid=\"1\" " + turned + "/>"),
+              ElementsAre(Vec3(5, 6, 7), Vec3(5, 7, 7), Vec3(3, 6, 7)));
+  // The component first, then its item.
+  EXPECT_THAT(
+      placed("<object id=\"2\"><components><component objectid=\"1\" transform=\"2 0 0 0 2 0 0 "
+             "0 2 1 0 0\"/></components></object>",
+             "<item objectid=\"2\" " + turned + "/>"),
+      ElementsAre(Vec3(5, 7, 7), Vec3(5, 9, 7), Vec3(1, 7, 7)));
+  EXPECT_EQ(placed("", "<item objectid=\"1\"/><item objectid=\"1\" " + turned + "/>").size(), 6u);
+  // Products of small numbers that floats would lose.
+  const std::string large = "transform=\"1e22 0 0 0 1e22 0 0 0 1e22 0 0 0\"",
+                    small = "transform=\"1e-44 0 0 0 1e-44 0 0 0 1e-44 0 0 0\"";
+  EXPECT_NEAR(placed("<object id=\"2\"><components><component objectid=\"1\" " + small +
+                         "/></components></object><object id=\"3\"><components><component "
+                         "objectid=\"2\" " +
+                         large + "/></components></object>",
+                     "<item objectid=\"3\" " + large + "/>")
+                  .at(2)
+                  .y(),
+              2, 1e-14);
+}
+
 TEST_F(MeshContent, ThreeMfElements) {
   const auto fault = [&](const std::string& resources, const std::string& attributes = "") {
     return complaint("a.3mf", threeMf("unit=\"meter\" " + attributes, resources), inMetre);
   };
-  for (const std::string name : {"b:beamlattice", "s:slicestack", "beamlattice", "object/"})
-    EXPECT_THAT(fault("<object id=\"2\"><" + name + (name.back() == '/' ? "" : "/") + "></object>"),
-                HasSubstr("may be or move geometry"))
-        << name;
+  // An object beside the triangle, which is placed.
+  const auto placed = [&](const std::string& content) {
+    const std::string mesh =
+        content.starts_with("<mesh>") ? "" : "<mesh><vertices/><triangles/></mesh>";
+    return complaint("a.3mf",
+                     threeMf("unit=\"meter\"", "<object id=\"2\">" + content + mesh + "</object>",
+                             "<item objectid=\"1\"/><item objectid=\"2\"/>"),
+                     inMetre);
+  };
+  for (const std::string name : {"b:beamlattice", "s:slicestack", "slicestack"}) {
+    EXPECT_EQ(fault("<" + name + " id=\"2\"/>"),
+              model + ":4: <" + name +
+                  "> is not supported in <resources>, and may be or move geometry" + instead);
+    EXPECT_EQ(placed("<" + name + "/>"), model + ":4: " + notIn("object", name));
+    EXPECT_EQ(placed("<mesh><" + name + "/><vertices/><triangles/></mesh>"),
+              model + ":4: <" + name + "> is not supported in <mesh>, and may be or move geometry" +
+                  instead);
+  }
+  EXPECT_EQ(placed("<extra/>"), model + ":4: " + notIn("object", "extra"));
+  EXPECT_THAT(complaint("a.3mf",
+                        threeMf("unit=\"meter\"", "",
+                                "<item objectid=\"1\"/><item xmlns=\"urn:v\" objectid=\"1\"/>"),
+                        inMetre),
+              testing::HasSubstr("<item> is of another namespace than the file, \"urn:v\""));
   EXPECT_EQ(fault("<m:colorgroup id=\"3\"><m:color color=\"#FF0000FF\"/></m:colorgroup>"
                   "<basematerials id=\"4\"><base name=\"a\" displaycolor=\"#FF0000FF\"/>"
                   "</basematerials>"),
@@ -152,24 +202,28 @@ TEST_F(MeshContent, ThreeMfElements) {
                   "requiredextensions=\"m p\" xmlns:m=\"http://m/material/2015/02\" "
                   "xmlns:p=\"http://p/production/2015/06\""),
             "no complaint");
-  const auto object = [](const std::string& vertex, const std::string& corner) {
-    return "<object id=\"2\"><mesh><vertices><vertex " + vertex +
-           "/></vertices><triangles><triangle v1=\"0\" v2=\"0\" v3=\"" + corner +
-           "\"/></triangles></mesh></object>";
+  const auto object = [&](const std::string& vertex, const std::string& corner) {
+    return placed("<mesh><vertices><vertex " + vertex +
+                  "/></vertices><triangles><triangle v1=\"0\" v2=\"0\" v3=\"" + corner +
+                  "\"/></triangles></mesh>");
   };
-  EXPECT_EQ(fault(object("x=\"0\" y=\"0\"", "0")),
-            model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3");
+  EXPECT_THAT(object("x=\"0\" y=\"0\"", "0"),
+              StartsWith(model + ":4: <vertex> has no z; add it, or remove the element"));
   for (const std::string z : {"0,5", "", "half", "1 2", "0x1"})
-    EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"" + z + "\"", "0")),
-              model + ":4: <vertex> has no number z; write decimal numbers such as -1.25e-3")
+    EXPECT_THAT(object("x=\"0\" y=\"0\" z=\"" + z + "\"", "0"),
+                EndsWith(model + ":4: <vertex> needs one decimal number z"))
         << z;
-  EXPECT_EQ(fault(object("x=\"0\" y=\"+.5\" z=\" 5e-1\n\"", "0")), "no complaint");
+  EXPECT_EQ(object("x=\"0\" y=\"+.5\" z=\" 5e-1\n\"/><vertex x=\"1\" y=\"0\" z=\"0\"", "1"),
+            "no complaint");
   for (const std::string corner : {"0.5", "-1", "zero", "2147483648", "4294967296"})
-    EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\"", corner)),
-              model + ":4: <triangle> has no whole number v3 from 0 to 2^31 - 1")
-        << corner;
-  EXPECT_EQ(fault(object("x=\"0\" y=\"0\" z=\"0\" x=\"0\"", "0")),
-            model + ":4: <vertex> has the attribute \"x\" twice; keep one");
+    EXPECT_THAT(object("x=\"0\" y=\"1\" z=\"0\"", corner),
+                StartsWith(model + ":4: <triangle> v3: \"" + corner +
+                           "\" is no whole number from 0 to 2^31 - 1"));
+  EXPECT_EQ(object("x=\"0\" y=\"1\" z=\"0\"", "1"),
+            model + ":4: v3 of <triangle> is vertex 1 (from 0), and there are 1");
+  EXPECT_THAT(object("x=\"0\" y=\"0\" z=\"0\" x=\"0\"", "0"), StartsWith(model + ":4: "));
+  EXPECT_EQ(placed("<components><component objectid=\"1\"/></components>"),
+            model + ":4: an <object> needs a <mesh> or <components>");
 }
 
 }  // namespace

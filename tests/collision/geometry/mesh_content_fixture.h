@@ -15,8 +15,10 @@ namespace corridor::test::mesh_content {
 inline const std::string instead = "; save the mesh as OBJ, STL, PLY or OFF";
 inline const std::string linesNote = "lines and points have no volume, and are not read";
 
-inline std::string notRight(const std::string& element) {
-  return "<" + element + "> may be or move geometry, and assimp does not read it rightly" + instead;
+/// Returns the complaint on an element that is not known in another one.
+inline std::string notIn(const std::string& parent, const std::string& element) {
+  return "<" + element + "> is not supported in <" + parent +
+         ">, and may be or move geometry; remove it, or save the mesh as OBJ, STL, PLY or OFF";
 }
 
 class MeshContent : public MeshFileTest {

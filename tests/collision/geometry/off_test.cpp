@@ -16,7 +16,6 @@ TEST_F(Off, TrianglesAndPolygonsInDouble) {
            "# made by hand\nOFF\n# counts\n5 2 0  # no edges\n\n0 0 0\n1 0 0 # x\n"
            "1 1 0.1234567890123456789\n0 1 0\n+5 -5e0 .5\n4  0 1 2 3\n3 0 1 4  255 0 0\n");
   EXPECT_EQ(file.format, "OFF");
-  EXPECT_FALSE(file.floatVertices);
   EXPECT_EQ(file.mesh.triangles, Triangles({{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}));
   EXPECT_EQ(file.mesh.vertices.at(2), Vec3(1, 1, 0.1234567890123456789));
   EXPECT_EQ(file.mesh.vertices.at(4), Vec3(5, -5, 0.5));
@@ -87,7 +86,7 @@ TEST_F(Off, WordsAfterTheVertices) {
 TEST_F(Off, AssimpsAssertionsAreFaults) {
   const auto file = write("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   try {
-    readWithAssimp(file.string(), AssimpRules::OmplApp);
+    readWithAssimp(file.string());
     FAIL() << "no complaint";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr(": cannot be read by assimp: assimp's assertion fails: "));

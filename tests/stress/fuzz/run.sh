@@ -11,7 +11,7 @@ project=$(cd "$here/../../.." && pwd)
 words() {
   cd "$project"
   case $1 in
-    read_mesh | read_assimp) set -- collision/geometry/{*_reader,ply_header,collada_asset}.cpp ;;
+    read_mesh) set -- collision/geometry/{*_reader,gltf_json,ply_header}.cpp ;;
     read_cloud) set -- collision/geometry/{pcd_reader,ply_header,occupancy_map}.cpp ;;
     read_urdf | read_srdf) set -- planner/robot/{urdf_*,srdf_file,joint_types}.cpp ;;
     read_campaign) set -- planner/{benchmark/campaign_yaml,problem/keys,problem/checker_yaml}.cpp ;;
@@ -40,7 +40,6 @@ for target in "$@"; do
   words "$target" >"$build/seeds/$target.dict"
   [[ ! -s $build/seeds/$target.dict ]] || dictionary=(-dict="$build/seeds/$target.dict")
   longest=10
-  [[ $target == read_assimp ]] && longest=200  # assimp may take 60 s for a file, and each is read three times
   found=none
   if ! "$build/tests/stress/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=$longest -rss_limit_mb=2048 \
     -malloc_limit_mb=1024 -print_final_stats=1 "${dictionary[@]}" \

@@ -18,7 +18,7 @@ seeds() {
     (($(stat -c %s "$file") <= largest)) || continue
     name=${file#"$here"/}
     case $target in
-      read_mesh | read_assimp | read_cloud | read_solution) { echo "${file##*.}" && cat "$file"; } >"$folder/${name//\//_}" ;;
+      read_mesh | read_cloud | read_solution) { echo "${file##*.}" && cat "$file"; } >"$folder/${name//\//_}" ;;
       *) cp "$file" "$folder/${name//\//_}" ;;
     esac
   done

@@ -183,7 +183,7 @@ struct Comparison {
   PathProblem problem;
   Scene scene;
   MotionOptions options;
-  EdgeMethod method = EdgeMethod::directional;
+  EdgeMethod method = EdgeMethod::certified;
   double rounding = 0;   ///< metres: a distance below which checker and verifier may disagree
   std::string who = {};  ///< for messages: the method and the trees
 };

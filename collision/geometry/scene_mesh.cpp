@@ -1,0 +1,141 @@
+#include "collision/geometry/scene_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/SVD>
+
+#include "collision/core/rounding.h"
+#include "collision/core/shortest.h"
+#include "collision/geometry/mesh_health.h"
+#include "collision/geometry/vertex_welder.h"
+
+namespace corridor {
+namespace {
+
+constexpr int kMostDepth = 500;
+constexpr std::uint64_t kMostVisits = 1'000'000;
+
+TriangleMesh welded(const TriangleMesh& mesh) {
+  VertexWelder welder(mesh.vertices.size());
+  TriangleMesh result;
+  result.triangles = mesh.triangles;
+  for (auto& triangle : result.triangles)
+    for (std::uint32_t& corner : triangle) corner = welder.addOrFind(mesh.vertices[corner]);
+  result.vertices = welder.takePoints();
+  return result;
+}
+
+}  // namespace
+
+void ScenePart::addFace(std::initializer_list<std::uint32_t> indices, int line) {
+  corners.insert(corners.end(), indices);
+  faces.push_back({static_cast<std::uint32_t>(indices.size()), line});
+}
+
+NodePath NodePath::below(const Eigen::Affine3d& step) const {
+  NodePath path;
+  path.map_ = map_ * step;
+  const double stretch = Eigen::JacobiSVD<Mat3>(step.linear()).singularValues()[0];
+  const double length = step.translation().stableNorm();
+  path.scale_ = scale_ * stretch;
+  path.length_ = length_ + scale_ * length;
+  // An error e of each entry is one of less than 2e‖step‖ of each entry of the product, which
+  // loses at most half of the least number in each of three products.
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  path.lost_ = 2 * lost_ * stretch + 2 * kLeast;
+  path.lostLength_ = lostLength_ + 2 * lost_ * length + 2 * kLeast;
+  path.steps_ = steps_ + 1;
+  return path;
+}
+
+/// Each entry of a product of maps is a sum of four products, which rounds by at most 4u of the sum
+/// of their magnitudes; as a map, by 4u·√12 < 16u of the stretch. The entries of a step are rounded
+/// themselves: an angle, its sine and cosine, and a normalised axis have less than 16u. The map of
+/// a point adds 16u more.
+double NodePath::rounding(double farthest) const {
+  if (steps_ == 0) return 0;
+  const double least = map_.linear().cwiseAbs().maxCoeff();
+  if (!(scale_ < kMostMagnitude && length_ < kMostMagnitude && least > kLeastMagnitude))
+    return HUGE_VAL;
+  return (32.0 * steps_ + 16) * kUnit * (scale_ * farthest + length_) +
+         4 * (lost_ * farthest + lostLength_) + 8 * std::numeric_limits<double>::denorm_min();
+}
+
+bool NodePath::isMirrored() const {
+  const Mat3& map = map_.linear();
+  return (map / map.cwiseAbs().maxCoeff()).determinant() < 0;  // scaled, so as not to underflow
+}
+
+std::string wrongMagnitude(double number) {
+  const double size = std::abs(number);
+  if (number == 0 || (size >= kLeastMagnitude && size <= kMostMagnitude)) return "";
+  return "the number " + shortest(number) + " is not 0 or from 1e-250 to 1e250";
+}
+
+void SceneMesh::visit(int depth) {
+  if (depth > kMostDepth)
+    faults_.fail(
+        0, "nodes nest deeper than " + std::to_string(kMostDepth) + ", or a node contains itself");
+  if (++visits_ > kMostVisits)
+    faults_.fail(0, "has more than " + std::to_string(kMostVisits) +
+                        " instances of nodes; save the mesh as one");
+}
+
+void SceneMesh::note(const std::string& text) {
+  if (std::ranges::count(read_.notes, text) == 0) read_.notes.push_back(text);
+}
+
+void SceneMesh::add(const ScenePart& part, const NodePath& path) {
+  TriangleMesh& mesh = read_.mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vec3& vertex : part.vertices) mesh.vertices.push_back(path.map() * vertex);
+  faults_.requireFew(mesh, 0);
+  const std::uint32_t* corner = part.corners.data();
+  Vec3 lower = Vec3::Constant(HUGE_VAL), upper = -lower;
+  double farthest = 0;
+  const bool mirrored = path.isMirrored();  // then the other order keeps the outside outside
+  for (const ScenePart::Face& face : part.faces) {
+    if (face.corners > 3)
+      polygons_.push_back(
+          {static_cast<std::uint32_t>(mesh.triangles.size()), face.corners - 2, 0, face.line});
+    const auto at = [&](std::uint32_t k) {
+      return corner[mirrored && k > 0 ? face.corners - k : k];
+    };
+    for (std::uint32_t k = 0; k < face.corners; ++k) {
+      const Vec3& vertex = mesh.vertices[first + at(k)];
+      lower = lower.cwiseMin(vertex), upper = upper.cwiseMax(vertex);
+      farthest = std::max(farthest, part.vertices[at(k)].stableNorm());
+      if (k >= 2) mesh.triangles.push_back({first + at(0), first + at(k - 1), first + at(k)});
+    }
+    faults_.requireFew(mesh, face.line);
+    corner += face.corners;
+  }
+  if (part.faces.empty()) return;
+  const double error = path.rounding(farthest), extent = (upper - lower).stableNorm();
+  if (farthest == 0 && path.map().translation().isZero(0)) return;  // all are the origin
+  if (error == 0) return;
+  const double share = extent > 0 && error < HUGE_VAL ? error / extent : HUGE_VAL;
+  if (share > share_) error_ = error, share_ = share;
+}
+
+ReadMesh SceneMesh::take(std::string format) {
+  faults_.throwIfAny();
+  read_.format = std::move(format);
+  if (read_.mesh.triangles.empty()) return std::move(read_);
+  if (const auto complaint = checkMesh(read_.mesh)) faults_.fail(0, *complaint);
+  if (error_ == HUGE_VAL)
+    faults_.fail(
+        0, "the transforms of its nodes shrink a mesh to nothing, or stretch it beyond 1e250");
+  const std::string moves = "the transforms of its nodes may round a mesh by " +
+                            withDigits(error_, 2) + " units of the file, more than ";
+  if (!(share_ <= 1e-2))
+    faults_.fail(0, moves + "a hundredth of its size; move it to the origin of its file");
+  if (share_ > 1e-4) note(moves + "1e-4 of its size");
+  cutPolygons(read_.mesh, polygons_, faults_, read_.notes);
+  read_.mesh = welded(read_.mesh);
+  return std::move(read_);
+}
+
+}  // namespace corridor
