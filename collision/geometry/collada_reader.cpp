@@ -207,7 +207,7 @@ class ColladaReader {
   }
 
   void readNode(const Element& node, NodePath path, int depth) {
-    scene_.visit(depth);
+    scene_.visit(depth, xml::childCount(node));
     check(node,
           {"asset", "matrix", "rotate", "scale", "translate", "instance_camera", "instance_light",
            "instance_geometry", "instance_node", "node"},
@@ -291,6 +291,7 @@ class ColladaReader {
            "trifans", "tristrips"},
           {});
     const Element* const vertices = onlyChild(mesh, "vertices", faults_);
+    bool areRead = false;
     for (const Element* child = mesh.FirstChildElement(); child;
          child = child->NextSiblingElement()) {
       const std::string_view name = nameOf(*child);
@@ -299,7 +300,8 @@ class ColladaReader {
           name != "tristrips")
         continue;
       if (!vertices) return fault(*child, "the <mesh> has no <vertices>");
-      if (part.vertices.empty()) readVertices(mesh, *vertices, part);
+      if (!areRead) readVertices(mesh, *vertices, part);
+      areRead = true;
       faults_.throwIfAny();
       readFaces(*child, *vertices, part);
     }

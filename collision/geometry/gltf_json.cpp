@@ -39,7 +39,7 @@ void checkExtension(const std::string& name, bool isRequired, MeshFaults& faults
     faults.add(0, "the extension \"" + printable(name) +
                       "\" moves, copies or packs geometry, and is not supported" + kWithout);
   else
-    notes.push_back("the optional extension \"" + printable(name) + "\" is not read");
+    addNote(notes, "the optional extension \"" + printable(name) + "\" is not read");
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ void checkKeys(const Json& object, const std::string& what,
     if (meant != known.end())
       faults.add(0, "the key " + inQuotes(key) + " is not read; write " + inQuotes(*meant));
     else
-      notes.push_back("the key " + inQuotes(key) + " is not read");
+      addNote(notes, "the key " + inQuotes(key) + " is not read");
   }
 }
 

@@ -140,7 +140,7 @@ class GltfReader {
   }
 
   void readNode(std::uint32_t number, NodePath path, int depth) {
-    scene_.visit(depth);
+    scene_.visit(depth, 0);  // each node has one parent
     const std::string what = "node " + std::to_string(number);
     const Json* const found = elementOf("nodes", number, "a node or scene");
     if (!found) return faults_.throwIfAny();
@@ -354,6 +354,10 @@ class GltfReader {
             "for three bytes, with = at the end");
       return std::move(bytes).value_or("");
     }
+    if (uri.size() > 4096) {
+      fault("the name of the file of " + what + " is longer than 4096 characters");
+      return {};
+    }
     // By the format, the name is encoded. Some programs write it as it is.
     const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
     std::filesystem::path path = folder / decoded(uri);
@@ -434,8 +438,8 @@ class GltfReader {
     if (member(accessor, "componentType") != 5126)
       fault("positions are not stored as floats, which is not supported; save them as floats");
     const std::uint32_t count = checkAccessor(accessor, "VEC3", what);
-    if (!gltf::find(accessor, "bufferView") && count > 1'000'000)
-      return fault(what + " has more than 10^6 elements without a bufferView");
+    if (!gltf::find(accessor, "bufferView") && (unstored_ += count) > 1'000'000)
+      return fault(what + " brings the elements without a bufferView to more than 10^6");
     if (gltf::find(accessor, "bufferView")) elements(accessor, count, 12, what);
     faults_.throwIfAny();  // before there is memory for so many
     const std::size_t first = part.vertices.size();
@@ -480,6 +484,7 @@ class GltfReader {
   std::vector<std::string> notes_, otherFiles_;
   std::vector<std::optional<ScenePart>> parts_;  ///< of each mesh that was read
   std::map<std::uint32_t, std::string> buffers_;
+  std::uint64_t unstored_ = 0;    ///< positions without a bufferView
   std::set<std::uint32_t> read_;  ///< the nodes that were read
 };
 

@@ -15,7 +15,8 @@ namespace corridor {
 namespace {
 
 constexpr int kMostDepth = 500;
-constexpr std::uint64_t kMostVisits = 1'000'000;
+constexpr std::uint64_t kMostVisits = 1'000'000, kMostChildren = 2'000'000;
+constexpr std::size_t kMostNotes = 100;
 
 TriangleMesh welded(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
@@ -74,17 +75,22 @@ std::string wrongMagnitude(double number) {
   return "the number " + shortest(number) + " is not 0 or from 1e-250 to 1e250";
 }
 
-void SceneMesh::visit(int depth) {
+void SceneMesh::visit(int depth, std::size_t children) {
   if (depth > kMostDepth)
     faults_.fail(
         0, "nodes nest deeper than " + std::to_string(kMostDepth) + ", or a node contains itself");
   if (++visits_ > kMostVisits)
     faults_.fail(0, "has more than " + std::to_string(kMostVisits) +
                         " instances of nodes; save the mesh as one");
+  children_ += children;
+  if (children_ > kMostChildren)
+    faults_.fail(0, "the instances of nodes have more than " + std::to_string(kMostChildren) +
+                        " children; save the mesh as one");
 }
 
-void SceneMesh::note(const std::string& text) {
-  if (std::ranges::count(read_.notes, text) == 0) read_.notes.push_back(text);
+void addNote(std::vector<std::string>& notes, const std::string& text) {
+  if (notes.size() > kMostNotes || std::ranges::count(notes, text) > 0) return;
+  notes.push_back(notes.size() < kMostNotes ? text : "more is not read than these notes say");
 }
 
 void SceneMesh::add(const ScenePart& part, const NodePath& path) {

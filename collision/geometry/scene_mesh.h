@@ -55,6 +55,9 @@ constexpr double kLeastMagnitude = 1e-250, kMostMagnitude = 1e250;
 /// Returns what is wrong with a number of a scene, or "".
 std::string wrongMagnitude(double number);
 
+/// Adds a note, if it is new. After a hundred, one note says that there are more.
+void addNote(std::vector<std::string>& notes, const std::string& text);
+
 /// Collects the meshes of a scene of nodes, each under the map of its node.
 class SceneMesh {
  public:
@@ -62,12 +65,11 @@ class SceneMesh {
 
   /// Adds the faces of a part. @throws InputError if there are too many.
   void add(const ScenePart& part, const NodePath& path);
-  /// Counts a node that is visited. Nodes may be instanced by nodes that are instanced, so that a
-  /// small file can have any number of them. @throws InputError if there are too many, or if
-  /// `depth` shows that a node contains itself.
-  void visit(int depth);
-  /// Adds a note, if it is new.
-  void note(const std::string& text);
+  /// Counts a node that is visited, and its children. Nodes may be instanced by nodes that are
+  /// instanced, so that a small file can have any number of them. @throws InputError if there are
+  /// too many, or if `depth` shows that a node contains itself.
+  void visit(int depth, std::size_t children);
+  void note(const std::string& text) { addNote(read_.notes, text); }
 
   /// Returns the mesh, with its polygons cut and equal vertices merged. @throws InputError if there
   /// are no faces, if a polygon crosses itself, or if rounding may move a part by more than 1 % of
@@ -78,7 +80,7 @@ class SceneMesh {
   MeshFaults& faults_;
   ReadMesh read_;
   std::vector<PolygonFan> polygons_;
-  std::uint64_t visits_ = 0;
+  std::uint64_t visits_ = 0, children_ = 0;
   double error_ = 0, share_ = 0;  // the largest rounding of a part, by its share of the part's size
 };
 

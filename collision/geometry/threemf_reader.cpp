@@ -185,7 +185,6 @@ class ModelReader {
 
   /// Places the object of an item or a component.
   void place(const Element& reference, NodePath path, int depth) {
-    scene_.visit(depth);
     const std::string tag = "<" + printable(reference.Name()) + ">";
     for (const auto* a = reference.FirstAttribute(); a; a = a->Next())
       if (std::string_view(a->Name()).ends_with(":path"))
@@ -200,6 +199,7 @@ class ModelReader {
                    tag + " names an object that is not in the model; correct its objectid");
     used_.insert(id);
     const Element& element = *object->second;
+    scene_.visit(depth, xml::childCount(element));
     const Element* const components = onlyChild(element, "components", faults_);
     const Element* const mesh = onlyChild(element, "mesh", faults_);
     if ((components == nullptr) == (mesh == nullptr))

@@ -118,10 +118,6 @@ void requireNamespace(const Element& element, MeshFaults& faults) {
 void check(const Element& element, std::initializer_list<std::string_view> children,
            std::initializer_list<std::string_view> attributes, MeshFaults& faults,
            std::vector<std::string>& notes) {
-  const auto note = [&](const std::string& text) {
-    constexpr std::size_t kMostNotes = 100;
-    if (notes.size() < kMostNotes && std::ranges::count(notes, text) == 0) notes.push_back(text);
-  };
   for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling()) {
     if (node->ToUnknown())
       faults.add(node->GetLineNum(), "<!" + printable(node->Value()) + "> is not read; remove it");
@@ -162,8 +158,14 @@ void check(const Element& element, std::initializer_list<std::string_view> child
       faults.add(element.GetLineNum(), "the attribute " + inQuotes(name) + " of " + tag(element) +
                                            " is not read; write " + inQuotes(*meant));
     else
-      note("the attribute " + inQuotes(name) + " of " + tag(element) + " is not read");
+      addNote(notes, "the attribute " + inQuotes(name) + " of " + tag(element) + " is not read");
   }
+}
+
+std::size_t childCount(const Element& element) {
+  std::size_t count = 0;
+  for (const auto* node = element.FirstChild(); node; node = node->NextSibling()) ++count;
+  return count;
 }
 
 std::vector<const Element*> childrenOf(const Element& element, const char* name) {

@@ -38,6 +38,7 @@ void check(const Element& element, std::initializer_list<std::string_view> child
            std::initializer_list<std::string_view> attributes, MeshFaults& faults,
            std::vector<std::string>& notes);
 
+std::size_t childCount(const Element& element);
 /// Returns the children of an element that have this name.
 std::vector<const Element*> childrenOf(const Element& element, const char* name);
 /// Returns the only child of this name; null if there is none. Adds a fault if there are several.

@@ -369,6 +369,12 @@ TEST_F(ColladaGeometry, NodesThatContainThemselves) {
   for (int i = 0; i < 40; ++i) chain += twice("a" + std::to_string(i), "a" + std::to_string(i + 1));
   EXPECT_THAT(fault(chain + "<node id=\"a40\"/>"),
               testing::EndsWith("instances of nodes; save the mesh as one"));
+  std::string children;
+  for (int i = 0; i < 1000; ++i) children += "<translate>0 0 0</translate>";
+  chain = "<node id=\"a11\">" + children + "</node>";
+  for (int i = 0; i < 11; ++i) chain += twice("a" + std::to_string(i), "a" + std::to_string(i + 1));
+  EXPECT_EQ(fault(chain),
+            "a.dae: the instances of nodes have more than 2000000 children; save the mesh as one");
 }
 
 }  // namespace

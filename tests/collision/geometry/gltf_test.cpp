@@ -284,7 +284,7 @@ TEST_F(GltfIndices, NoDataAndDeepNesting) {
       "an accessor of indices has no bufferView");
   const std::string many = with(gltf(), "\"count\": 3", "\"count\": 90000000");
   EXPECT_EQ(fault(with(many, "\"bufferView\": 0, ", "")),
-            "an accessor of POSITION has more than 10^6 elements without a bufferView");
+            "an accessor of POSITION brings the elements without a bufferView to more than 10^6");
   const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
   EXPECT_EQ(fault(with(gltf(), "\"version\": \"2.0\"", "\"minVersion\": " + deep)),
             "its JSON nests deeper than 500");

@@ -265,6 +265,18 @@ TEST_F(ColladaContent, Notes) {
             "a.dae:4: the attribute \"Id\" of <node> is not read; write \"id\"");
 }
 
+TEST_F(ColladaContent, ManyNotes) {
+  std::string attributes;
+  for (int i = 0; i < 90; ++i) attributes += " a" + std::to_string(i) + "=\"\"";
+  const std::string first = "<node" + attributes + "/>";
+  EXPECT_EQ(notesWith(&ColladaParts::node, first).size(), 90u);
+  for (char& c : attributes) c = c == 'a' ? 'b' : c;
+  const auto notes = notesWith(&ColladaParts::node, first + "<node" + attributes + "/>");
+  ASSERT_EQ(notes.size(), 101u);
+  EXPECT_EQ(notes[99], "the attribute \"b9\" of <node> is not read");
+  EXPECT_EQ(notes[100], "more is not read than these notes say");
+}
+
 /// What other elements than meshes have is not checked.
 TEST_F(ColladaContent, ArraysOutsideOfMeshes) {
   const std::string source = "<source id=\"i\"><float_array count=\"1\">x</float_array></source>";
