@@ -28,7 +28,6 @@ ROOT = HERE.parent.parent
 ROWS, FIGURES, PAGE = HERE / "course/rows.toml", HERE / "course/figures.json", ROOT / "collision/COURSE.md"
 HOLDS, OPEN, FAILS = "holds", "not decided", "does not hold"
 TOPICS = [f"A{i}" for i in range(1, 60)] + [f"B{i}" for i in range(1, 34)] + [f"C{i}" for i in range(1, 7)]
-PROGRAM = ROOT / "build/release/corridor"
 KEY = re.compile(r"^([a-z_0-9]+)=(-?[0-9.e+-]+)$", re.MULTILINE)
 
 
@@ -160,13 +159,13 @@ def main():
         sys.exit(f"{ROWS}: no row has the topics {', '.join(sorted(missing))}")
     if arguments.inputs:
         arguments.inputs.mkdir(parents=True, exist_ok=True)
-        return make_inputs(arguments.inputs.resolve(), PROGRAM)
+        return make_inputs(arguments.inputs)
     stored = json.loads(FIGURES.read_text()) if FIGURES.exists() else {}
     if not (arguments.write or arguments.check):
         if arguments.only and not any(arguments.only in row["topic"] for row in rows):
             sys.exit(f"--only: no topic contains {arguments.only}")
         with tempfile.TemporaryDirectory() as folder:
-            make_inputs(pathlib.Path(folder), PROGRAM)
+            make_inputs(pathlib.Path(folder))
             for row in rows:
                 if arguments.only and arguments.only not in row["topic"]:
                     continue
@@ -187,7 +186,7 @@ def main():
 
 
 # pylint: disable=wrong-import-position
-from course_inputs import make_inputs  # noqa: E402
+from course_inputs import PROGRAM, make_inputs  # noqa: E402
 from verdicts import NOISE  # noqa: E402
 
 if __name__ == "__main__":

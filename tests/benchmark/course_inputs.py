@@ -1,8 +1,25 @@
-"""The inputs of the commands in collision/COURSE.md."""
+"""The inputs of the commands in collision/COURSE.md, and the scenes of scenes.py and time_model.py."""
 import math
 import pathlib
 import random
 import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "build/release/corridor"
+SCENES = {
+    "piano among walls": ("problems/piano/walls.obj", "robots/piano/piano.obj"),
+    "bug in a bottle": ("problems/bug_trap/bottle.obj", "robots/bug/bug.stl"),
+    "cart at walls": ("problems/rover_door/walls.obj", "robots/rover/cart.stl"),
+    "upper arm at a shelf": ("problems/arm_at_shelf/shelf.stl", "robots/arm6/upper_arm.stl"),
+    "hook in a maze": ("problems/hook_maze/walls.obj", "robots/hook/hook.obj"),
+    "two forearms": ("robots/arm6/forearm.stl", "robots/arm6/forearm.stl"),
+    "two wrinkled tori": ("a.obj", "b.obj"),
+}
+
+
+def files_of(meshes, folder):
+    """Returns the paths of the two meshes of a scene: made inputs are in `folder`."""
+    return [str((ROOT if "/" in name else folder) / name) for name in meshes]
 
 
 def write_mesh(file, vertices, faces):
@@ -63,9 +80,9 @@ def poses(source, count, nearest, farthest):
     return [rotation(source) + [source.uniform(nearest, farthest) * x for x in direction(source)] for _ in range(count)]
 
 
-def split_poses(folder, program):
+def split_poses(folder):
     """Splits poses.txt by the program's answers: gaps.txt has the poses without contact, contacts.txt the others."""
-    done = subprocess.run([program, *"query a.obj b.obj --poses poses.txt".split()], cwd=folder, capture_output=True,
+    done = subprocess.run([PROGRAM, *"query a.obj b.obj --poses poses.txt".split()], cwd=folder, capture_output=True,
                           text=True, check=True)
     hits = [answer.split(",")[1] == "1" for answer in done.stdout.splitlines()[1:]]
     lines = (folder / "poses.txt").read_text().splitlines(keepends=True)
@@ -74,14 +91,14 @@ def split_poses(folder, program):
         (folder / f"{name}.txt").write_text("".join(chosen))
 
 
-def make_inputs(folder: pathlib.Path, program: pathlib.Path):
+def make_inputs(folder: pathlib.Path):
     source = random.Random(1)
     write_mesh(folder / "a.obj", *torus(80, 30))
     write_mesh(folder / "b.obj", *torus(60, 40))
     for k in range(1, 4):
         write_mesh(folder / f"a{k}.obj", *torus(80, 30, 0.02 * k))
     (folder / "poses.txt").write_text("".join(map(line, poses(source, 300, 0, 2.7))))
-    split_poses(folder, program)
+    split_poses(folder)
     starts, ends = poses(source, 100, 3, 3.2), poses(source, 100, 0, 1)
     more = random.Random(2)  # passing by: many of these are free
     starts, ends = starts + poses(more, 50, 3, 3.2), ends + poses(more, 50, 2.4, 2.7)

@@ -14,18 +14,8 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from course_inputs import make_inputs  # noqa: E402
+from course_inputs import PROGRAM, SCENES, files_of, make_inputs  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENES = {
-    "piano among walls": ("problems/piano/walls.obj", "robots/piano/piano.obj"),
-    "bug in a bottle": ("problems/bug_trap/bottle.obj", "robots/bug/bug.stl"),
-    "cart at walls": ("problems/rover_door/walls.obj", "robots/rover/cart.stl"),
-    "upper arm at a shelf": ("problems/arm_at_shelf/shelf.stl", "robots/arm6/upper_arm.stl"),
-    "hook in a maze": ("problems/hook_maze/walls.obj", "robots/hook/hook.obj"),
-    "two forearms": ("robots/arm6/forearm.stl", "robots/arm6/forearm.stl"),
-    "two wrinkled tori": ("a.obj", "b.obj"),
-}
 VOLUMES = ("obb-binary", "aabb", "sphere", "rss", "kdop18")
 
 print("scene,volume,building,N_v,N_p,us")
@@ -33,10 +23,10 @@ counts, times = {}, {}
 with tempfile.TemporaryDirectory() as folder:
     make_inputs(pathlib.Path(folder))
     for scene, meshes in SCENES.items():
-        files = [str(pathlib.Path(folder) / name if "/" not in name else ROOT / name) for name in meshes]
+        files = files_of(meshes, pathlib.Path(folder))
         for volume in VOLUMES:
             for building in ("top-down", "bottom-up"):
-                done = subprocess.run([ROOT / "build/release/corridor", "query", *files, "--grid", "8x8x8", "--rotations",
+                done = subprocess.run([PROGRAM, "query", *files, "--grid", "8x8x8", "--rotations",
                                        "2", "--repeat", "3", "--volume", volume, "--build", building], check=True,
                                       capture_output=True, text=True)
                 found = dict(re.findall(r"^(\w+)=(\S+)$", done.stderr, re.MULTILINE))

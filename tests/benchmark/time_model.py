@@ -9,6 +9,7 @@ before (*elsewhere*). N_v and N_p are those of the poses whose times are predict
 import csv
 import json
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -16,22 +17,12 @@ import tempfile
 sys.dont_write_bytecode = True
 import course_inputs  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENES = {
-    "piano among walls": ("problems/piano/walls.obj", "robots/piano/piano.obj"),
-    "bug in a bottle": ("problems/bug_trap/bottle.obj", "robots/bug/bug.stl"),
-    "cart at walls": ("problems/rover_door/walls.obj", "robots/rover/cart.stl"),
-    "upper arm at a shelf": ("problems/arm_at_shelf/shelf.stl", "robots/arm6/upper_arm.stl"),
-    "hook in a maze": ("problems/hook_maze/walls.obj", "robots/hook/hook.obj"),
-    "two forearms": ("robots/arm6/forearm.stl", "robots/arm6/forearm.stl"),
-    "two wrinkled tori": ("a.obj", "b.obj"),
-    "spheres at gap 0.02": ("inner.obj", "outer.obj"),
-}
+SCENES = course_inputs.SCENES | {"spheres at gap 0.02": ("inner.obj", "outer.obj")}
 VOLUMES = ("obb-binary", "aabb", "sphere", "rss", "kdop14", "kdop18", "kdop26", "ellipsoid", "hull")
 
 
 def corridor(*words):
-    return subprocess.run([ROOT / "build/release/corridor", *words], check=True, capture_output=True, text=True).stdout
+    return subprocess.run([course_inputs.PROGRAM, *words], check=True, capture_output=True, text=True).stdout
 
 
 def counts_of(files, poses, volume):
@@ -46,9 +37,12 @@ with tempfile.TemporaryDirectory() as name:
     course_inputs.make_inputs(folder)
     course_inputs.write_mesh(folder / "inner.obj", *course_inputs.sphere(100, 1))
     course_inputs.write_mesh(folder / "outer.obj", *course_inputs.sphere(100, 1.02))
+    source = random.Random(1)
+    (folder / "turns.txt").write_text(
+        "".join(course_inputs.line(course_inputs.rotation(source) + [0, 0, 0]) for _ in range(60)))
     before = {}
     for scene, meshes in SCENES.items():
-        files = [str(folder / name if "/" not in name else ROOT / name) for name in meshes]
+        files = course_inputs.files_of(meshes, folder)
         poses = folder / "turns.txt"
         if not scene.startswith("spheres"):
             poses = folder / "grid.txt"
