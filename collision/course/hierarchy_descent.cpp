@@ -11,8 +11,8 @@
 #include <Eigen/Geometry>
 
 #include "collision/convex/convex_set.h"
-#include "collision/convex/seidel-inl.h"
 #include "collision/core/rounding.h"
+#include "collision/course/exact_program-inl.h"
 #include "collision/course/polytope_shadow.h"
 
 namespace corridor {
@@ -61,7 +61,18 @@ struct Side {
     for (const std::uint32_t v : of.ringOf(apex)) part.points.push_back(at(v));
     return part;
   }
+  ConvexPart whole() const {
+    ConvexPart part;
+    const auto& points = of.polytope().vertices();
+    part.points.assign(points.begin(), points.end());
+    return part;
+  }
   const Vec3& at(std::uint32_t v) const { return of.polytope().vertices()[v]; }
+  /// Returns how far the polytope reaches along a normal; NaN if the numbers overflow.
+  double highest(const Vec3& n) const {
+    const Vec3 local = (X.m.transpose() * n).stableNormalized();
+    return local.allFinite() ? n.dot(X * at(of.extreme(local))) : NAN;
+  }
 };
 
 /// Descends in the hierarchy of one side: improves `best` by the pyramids beyond the plane of the
@@ -85,6 +96,13 @@ void descend(const Side& side, double sign, Answer& best, const Evaluate& evalua
 
 /// Returns the best answer over both hierarchies. @param evaluate returns the answer for a part of
 /// a and a part of b.
+///
+/// The plane of the best answer must support both polytopes. If it does not, a pyramid is lost.
+/// That happens if rounding hides its apex (a normal is often that of a face, so that three
+/// vertices are farthest), or if the best plane of the parts is not unique and that of the last
+/// answer is another one than that of the whole. Then the answer for the whole polytopes is
+/// computed. 2^-48 of the size is above the rounding of heights, a few units in the last place;
+/// the proved bounds don't depend on it.
 template <class Answer, class Evaluate>
 Answer descendBoth(const Side& a, const Side& b, const Evaluate& evaluate) {
   const auto withPart = [&](const ConvexPart& partA) {
@@ -94,7 +112,14 @@ Answer descendBoth(const Side& a, const Side& b, const Evaluate& evaluate) {
   };
   Answer best = withPart(a.simplex());
   descend(a, 1, best, withPart);
-  return best;
+  if (best.isFinal()) return best;
+  const double slack =
+      0x1p-48 * best.normal.norm() *
+      (PosedSet(a.of, a.X).reach() + a.X.t.norm() + PosedSet(b.of, b.X).reach() + b.X.t.norm());
+  if (a.highest(best.normal) <= best.heightA + slack &&
+      -b.highest(-best.normal) >= best.heightB - slack)
+    return best;
+  return evaluate(a.whole(), b.whole());
 }
 
 /// An answer for a part of a and a part of b: the plane that proves it is at `heightA` along the
@@ -138,19 +163,34 @@ class DepthOfParts {
         size = std::max(size, p.cwiseAbs().maxCoeff());
         list_.push_back({{e1_.dot(p), e2_.dot(p), sign > 0 ? -1.0 : 0.0, sign > 0 ? 0.0 : -1.0},
                          -d_.dot(p),
-                         static_cast<std::uint32_t>(list_.size())});
+                         0});
+      }
+    constexpr double kSteepest = 0x1p20;
+    for (const double sign : {1.0, -1.0})
+      for (std::size_t k = 0; k < 2; ++k) {
+        list_.push_back({{}, kSteepest, 0});
+        list_.back().normal[k] = sign;
       }
     for (std::size_t i = list_.size(); i > 1; --i) {  // Seidel's order must be random
       random_ = random_ * 6364136223846793005U + 1442695040888963407U;
       std::swap(list_[i - 1], list_[(random_ >> 33) % i]);
     }
-    constexpr double kSteepest = 0x1p20;
-    const double most = 8 * kSteepest * (size + 0x1p-900);
-    const Bounds<double, 4> bounds{{kSteepest, kSteepest, most, most}, {100, 101, 102, 103}};
+    const auto count = static_cast<std::uint32_t>(list_.size());
+    for (std::uint32_t i = 0; i < count; ++i) list_[i].name = i;
+    const double most = 8 * kSteepest * (size + 1);
+    const Bounds<double, 4> bounds{{most, most, most, most},
+                                   {count, count + 1, count + 2, count + 3}};
+    const Point<double, 4> goal{0, 0, -1, -1};
     Point<double, 4> x{};
     Tight<4> tight;
-    solve<double, 4>(bounds, std::span<const HalfSpace<double, 4>>(list_), {0, 0, -1, -1}, x, tight,
-                     memory_);
+    if (!solve<double, 4>(bounds, std::span<const HalfSpace<double, 4>>(list_), goal, x, tight,
+                          memory_) ||
+        !isOptimal(tight, goal)) {
+      const auto row = [this](std::uint32_t i) { return list_[i]; };
+      const Point<Rational, 4> exactGoal{0, 0, -1, -1};
+      const auto best = exactOptimum<4>(count, row, exactGoal, rational(most), Tight<4>{});
+      for (std::size_t k = 0; k < 4; ++k) x[k] = static_cast<double>(best.x[k]);
+    }
     PartsDepth result;
     result.normal = d_ + x[0] * e1_ + x[1] * e2_;
     result.heightA = -HUGE_VAL, result.heightB = HUGE_VAL;
@@ -161,6 +201,21 @@ class DepthOfParts {
   }
 
  private:
+  /// Returns whether the goal is a sum of the normals of the tight rows with weights of at least 0:
+  /// then no point is better. Rounding hides the best point if more than four planes meet in it.
+  bool isOptimal(const seidel::Tight<4>& tight, const seidel::Point<double, 4>& goal) const {
+    Eigen::Matrix4d normals;
+    for (int i = 0; i < 4; ++i) {
+      const std::uint32_t name = tight.name[static_cast<std::size_t>(i)];
+      if (name >= list_.size()) return false;
+      normals.col(i) = Eigen::Vector4d(list_[name].normal.data());
+    }
+    const Eigen::Vector4d weights = normals.fullPivLu().solve(Eigen::Vector4d(goal.data()));
+    // The weights of the planes of a, and those of b, sum up to 1. One below 0 by less than 2^-40
+    // raises the depth by less than 2^-40 of the size.
+    return weights.minCoeff() > -0x1p-40;
+  }
+
   Vec3 d_, e1_, e2_;
   std::vector<seidel::HalfSpace<double, 4>> list_;
   seidel::HeapMemory<double, 3> memory_;
@@ -213,6 +268,9 @@ DepthByDescent depthByDescent(const DobkinKirkpatrick& a, const Transform& X_WA,
   const Vec3 d = direction.stableNormalized();
   if (!direction.allFinite() || !(d.squaredNorm() > 0.5))
     throw std::invalid_argument("depthByDescent: the direction is 0 or not finite");
+  for (const Transform* X : {&X_WA, &X_WB})
+    if (!X->m.allFinite() || !X->t.allFinite())
+      throw std::invalid_argument("depthByDescent: a map is not finite");
   int count = 0;
   DepthOfParts depthOf(d);
   const auto evaluate = [&](const ConvexPart& partA, const ConvexPart& partB) {
@@ -225,11 +283,13 @@ DepthByDescent depthByDescent(const DobkinKirkpatrick& a, const Transform& X_WA,
   const Vec3 n = best.normal.stableNormalized();
   const double rate = n.dot(d);  // at least 2^-21
   const auto [overlap, error] = overlapAlong(PosedSet(a, X_WA), PosedSet(b, X_WB), n);
-  if (!(overlap > error)) return result;  // apart, or touching up to rounding
+  if (overlap < -error) return result;  // the plane separates them, and b moves away from it
   result.found = best.depth;
   result.normal_W = n;
-  // The product rounds by 3u of the sum of its terms, which is at most 2.
-  result.upper = roundedUp((overlap + error) / (rate - 8 * kUnit));
+  // The product rounds by 3u of the sum of its terms' magnitudes, which is at most 1; d itself is
+  // off by at most 4u.
+  const double upper = roundedUp(roundedUp(overlap + error) / (rate - 8 * kUnit));
+  result.upper = rate > 0x1p-22 && upper < HUGE_VAL ? std::max(upper, 0.0) : HUGE_VAL;
   return result;
 }
 

@@ -74,16 +74,4 @@ template <int D>
 LinearProgramAnswer<D> commonPoint(std::span<const HalfSpace<D>> a, std::span<const HalfSpace<D>> b,
                                    std::uint64_t seed = 1);
 
-#define CORRIDOR_LINEAR_PROGRAM(D)                                                       \
-  extern template LinearProgramAnswer<D> solveLinearProgram(                             \
-      std::span<const HalfSpace<D>>, const Eigen::Matrix<double, D, 1>&, std::uint64_t); \
-  extern template LinearProgramAnswer<D> commonPoint(                                    \
-      std::span<const HalfSpace<D>>, std::span<const HalfSpace<D>>, std::uint64_t);
-CORRIDOR_LINEAR_PROGRAM(2)
-CORRIDOR_LINEAR_PROGRAM(3)
-CORRIDOR_LINEAR_PROGRAM(4)
-CORRIDOR_LINEAR_PROGRAM(5)
-CORRIDOR_LINEAR_PROGRAM(6)
-#undef CORRIDOR_LINEAR_PROGRAM
-
 }  // namespace corridor
