@@ -9,6 +9,8 @@ namespace corridor {
 
 /// Returns the word with its ASCII letters in lower case.
 std::string lowered(std::string_view word);
+/// Returns a text with the bytes that URIs write as %20 and the like. Other uses of % are kept.
+std::string percentDecoded(std::string_view text);
 
 /// Returns the least number of edits that turn `a` into `b`. An edit inserts, removes or replaces a
 /// byte, or swaps two neighbouring bytes (optimal string alignment).

@@ -1,7 +1,6 @@
 #include "collision/geometry/assimp_import.h"
 
 #include <algorithm>
-#include <charconv>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -90,7 +89,7 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
     if (const std::size_t folder = file_.rfind('/') + 1;  // 0 without a folder
         file != file_ && file.starts_with(file_.substr(0, folder))) {
       // By the format, the name is encoded. Some programs write it as it is.
-      file = file_.substr(0, folder) + decoded(file.substr(folder));
+      file = file_.substr(0, folder) + percentDecoded(file.substr(folder));
       if (!Exists(file.c_str())) file = name;
     }
     if (!Exists(file.c_str())) return nullptr;
@@ -101,20 +100,6 @@ class OrdinaryFiles : public Assimp::DefaultIOSystem {
   }
 
  private:
-  /// Returns a name with the bytes that URIs write as %20 and the like, which assimp does not
-  /// decode.
-  static std::string decoded(std::string name) {
-    for (auto at = name.find('%'); at != name.npos; at = name.find('%', at + 1)) {
-      unsigned char byte = 0;
-      const char* const digits = name.data() + at + 1;
-      if (at + 3 > name.size() || std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2 ||
-          byte == 0)
-        continue;
-      name.replace(at, 3, 1, static_cast<char>(byte));
-    }
-    return name;
-  }
-
   const std::string& file_;
   std::vector<std::string>& opened_;
   const bool isObj_ = lowered(std::filesystem::path(file_).extension().string()) == ".obj";

@@ -14,9 +14,10 @@ constexpr const char* kWithout = "; save the mesh without it";
 
 /// Returns whether an extension is about the looks, the names or the sounds of a scene only.
 bool isHarmless(std::string_view extension) {
-  static constexpr std::array<std::string_view, 8> parts{"_materials_", "_texture_", "_lights_",
-                                                         "_packing_",   "_xmp",      "_audio",
-                                                         "_animation",  "_webgl"};
+  const auto afterVendor = extension.substr(std::min(extension.find('_'), extension.size()));
+  static constexpr std::array<std::string_view, 8> starts{
+      "_materials_", "_texture_", "_lights_",   "_packing_",
+      "_xmp",        "_audio",    "_animation", "_techniques_webgl"};
   static constexpr std::array<std::string_view, 7> names{
       "FB_ngon_encoding",   // which triangles were one polygon
       "EXT_mesh_features",  // numbers of features
@@ -26,20 +27,25 @@ bool isHarmless(std::string_view extension) {
       "KHR_node_visibility",    // hidden nodes are read, too
       "MSFT_lod"};              // the finest level is in the scene
   return std::find(names.begin(), names.end(), extension) != names.end() ||
-         std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return extension.find(part) != part.npos; });
+         std::any_of(starts.begin(), starts.end(),
+                     [&](std::string_view start) { return afterVendor.starts_with(start); });
 }
 
-void checkExtension(const std::string& name, bool isRequired, MeshFaults& faults,
-                    std::vector<std::string>& notes) {
-  if (isHarmless(name)) return;
-  if (isRequired)
-    faults.add(0, "the required extension \"" + printable(name) + "\" is not supported" + kWithout);
-  else if (name.find("mesh") != name.npos || name == "CESIUM_RTC")
-    faults.add(0, "the extension \"" + printable(name) +
-                      "\" moves, copies or packs geometry, and is not supported" + kWithout);
-  else
-    addNote(notes, "the optional extension \"" + printable(name) + "\" is not read");
+/// Adds a fault for a number other than 0 that is 0 as a double, such as 1e-400: the parser does
+/// not tell.
+void checkNumbers(std::string_view text, MeshFaults& faults) {
+  bool isInText = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') isInText = !isInText;
+    if (text[i] == '\\') ++i;
+    if (isInText || text[i] < '0' || text[i] > '9') continue;
+    const std::size_t end = std::min(text.find_first_not_of("0123456789.eE+-", i), text.size());
+    double number = 1;
+    const std::string_view word = text.substr(i, end - i);
+    if (!parseCoordinate(word, number) && isRoundedToZero(word, number))
+      faults.add(0, "the number " + inQuotes(word) + " is beyond the range of doubles; correct it");
+    i = end - 1;
+  }
 }
 
 }  // namespace
@@ -47,6 +53,7 @@ void checkExtension(const std::string& name, bool isRequired, MeshFaults& faults
 Json parse(std::string_view text, MeshFaults& faults) {
   if (text.starts_with("\xEF\xBB\xBF"))
     faults.fail(0, "begins with a byte-order mark, which glTF doesn't allow; remove it");
+  checkNumbers(text, faults);
   std::vector<std::set<std::string>> open;
   const auto check = [&](int depth, Json::parse_event_t event, const Json& parsed) {
     if (depth > 500) faults.fail(0, "its JSON nests deeper than 500");
@@ -83,10 +90,13 @@ const Json& member(const Json& object, const char* name) {
   return value ? *value : none;
 }
 
-void checkKeys(const Json& object, const std::string& what,
-               std::initializer_list<std::string_view> known, MeshFaults& faults,
-               std::vector<std::string>& notes) {
-  if (!object.is_object()) return faults.add(0, what + " is no JSON object");
+void Document::note(const std::string& text) {
+  addNote(notes_, text);
+}
+
+void Document::check(const Json& object, const std::string& what,
+                     std::initializer_list<std::string_view> known) {
+  if (!object.is_object()) return fault(what + " is no JSON object");
   for (const auto& entry : object.items()) {
     const std::string& key = entry.key();
     if (key == "name" || key == "extras" || key == "extensions" ||
@@ -96,25 +106,36 @@ void checkKeys(const Json& object, const std::string& what,
       return lowered(name) == lowered(key);
     });
     if (meant != known.end())
-      faults.add(0, "the key " + inQuotes(key) + " is not read; write " + inQuotes(*meant));
+      fault("the key " + inQuotes(key) + " is not read; write " + inQuotes(*meant));
     else
-      addNote(notes, "the key " + inQuotes(key) + " is not read");
+      note("the key " + inQuotes(key) + " is not read");
   }
 }
 
-std::optional<std::uint32_t> whole(const Json& object, const char* name, const std::string& what,
-                                   MeshFaults& faults) {
+std::optional<std::uint32_t> Document::whole(const Json& object, const char* name,
+                                             const std::string& what) {
   const Json* const value = find(object, name);
   if (!value) return std::nullopt;
   if (value->is_number_unsigned() && value->get<std::uint64_t>() <= INT32_MAX)
     return static_cast<std::uint32_t>(value->get<std::uint64_t>());
-  faults.add(0, '"' + std::string(name) + "\" of " + what + " is " + value->dump().substr(0, 32) +
-                    "; a whole number of at least 0 is needed, without a point");
+  fault('"' + std::string(name) + "\" of " + what + " is " + value->dump().substr(0, 32) +
+        "; a whole number of at least 0 is needed, without a point");
   return std::nullopt;
 }
 
-std::optional<std::vector<double>> numbers(const Json& object, const char* name, std::size_t count,
-                                           const std::string& what, MeshFaults& faults) {
+std::vector<std::uint32_t> Document::wholes(const Json& object, const char* name,
+                                            const std::string& what) {
+  std::vector<std::uint32_t> found;
+  const Json* const values = find(object, name);
+  if (values && !values->is_array()) fault('"' + std::string(name) + "\" is not an array");
+  if (!values || !values->is_array()) return found;
+  for (const Json& value : *values)
+    if (const auto index = whole(Json{{name, value}}, name, what)) found.push_back(*index);
+  return found;
+}
+
+std::optional<std::vector<double>> Document::numbers(const Json& object, const char* name,
+                                                     std::size_t count, const std::string& what) {
   const Json* const value = find(object, name);
   if (!value) return std::nullopt;
   std::vector<double> found;
@@ -122,63 +143,67 @@ std::optional<std::vector<double>> numbers(const Json& object, const char* name,
     for (const Json& number : *value)
       if (number.is_number()) found.push_back(number.get<double>());
   if (found.size() != count) {
-    faults.add(0, "the " + std::string(name) + " of " + what + " needs " + std::to_string(count) +
-                      " numbers");
+    fault("the " + std::string(name) + " of " + what + " needs " + std::to_string(count) +
+          " numbers");
     return std::nullopt;
   }
   for (const double number : found)
     if (const std::string wrong = wrongMagnitude(number); !wrong.empty())
-      faults.add(0, "the " + std::string(name) + " of " + what + ": " + wrong);
+      fault("the " + std::string(name) + " of " + what + ": " + wrong);
   return found;
 }
 
-void checkExtensions(const Json& root, MeshFaults& faults, std::vector<std::string>& notes) {
+const Json* Document::elementOf(const char* list, std::uint32_t index, const std::string& what) {
+  const Json& all = member(root_, list);
+  if (index < all.size()) return &all[index];
+  fault(what + " refers to number " + std::to_string(index) + " of \"" + list + "\", which has " +
+        std::to_string(all.size()));
+  return nullptr;
+}
+
+const Json* Document::referred(const Json& object, const char* name, const char* list,
+                               const std::string& what) {
+  const auto index = whole(object, name, what);
+  return index ? elementOf(list, *index, what) : nullptr;
+}
+
+void Document::checkExtension(const std::string& name, bool isRequired) {
+  if (isHarmless(name)) return;
+  if (isRequired)
+    fault("the required extension \"" + printable(name) + "\" is not supported" + kWithout);
+  else if (name.find("mesh") != name.npos || name == "CESIUM_RTC")
+    fault("the extension \"" + printable(name) +
+          "\" moves, copies or packs geometry, and is not supported" + kWithout);
+  else
+    note("the optional extension \"" + printable(name) + "\" is not read");
+}
+
+void Document::checkExtensions() {
   std::set<std::string> required, used;
-  for (const Json& name : member(root, "extensionsRequired"))
-    if (name.is_string()) required.insert(name.get<std::string>());
-  for (const Json& name : member(root, "extensionsUsed"))
-    if (name.is_string()) used.insert(name.get<std::string>());
-  std::vector<const Json*> open{&root};
+  for (const auto& [key, names] :
+       {std::pair("extensionsRequired", &required), std::pair("extensionsUsed", &used)}) {
+    const Json* const list = find(root_, key);
+    if (!list) continue;
+    if (!list->is_array() || !std::ranges::all_of(*list, &Json::is_string))
+      return fault('"' + std::string(key) + "\" is not an array of texts");
+    for (const Json& name : *list) names->insert(name.get<std::string>());
+  }
+  std::vector<const Json*> open{&root_};
   while (!open.empty()) {
     const Json& value = *open.back();
     open.pop_back();
     for (const auto& [key, inner] : value.items()) {
       if (key == "extras") continue;  // the program's that wrote the file
-      if (key == "extensions" && inner.is_object())
+      if (key == "extensions" && !inner.is_object())
+        fault("\"extensions\" is no JSON object");
+      else if (key == "extensions")
         for (const auto& entry : inner.items()) used.insert(entry.key());
       if (inner.is_structured()) open.push_back(&inner);
     }
   }
-  for (const std::string& name : required) checkExtension(name, true, faults, notes);
+  for (const std::string& name : required) checkExtension(name, true);
   for (const std::string& name : used)
-    if (!required.contains(name)) checkExtension(name, false, faults, notes);
-}
-
-std::optional<std::string> fromBase64(std::string_view text) {
-  if (text.size() % 4 != 0) return std::nullopt;
-  const std::size_t whole = text.size() / 4 * 3;
-  std::size_t padding = 0;
-  while (padding < 2 && text.ends_with('=')) text.remove_suffix(1), ++padding;
-  std::string bytes;
-  bytes.reserve(whole);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const int value = c >= 'A' && c <= 'Z'   ? c - 'A'
-                      : c >= 'a' && c <= 'z' ? c - 'a' + 26
-                      : c >= '0' && c <= '9' ? c - '0' + 52
-                      : c == '+'             ? 62
-                      : c == '/'             ? 63
-                                             : -1;
-    if (value < 0) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      bytes += static_cast<char>(bits >> count & 0xFF);
-    }
-  }
-  return bytes;
+    if (!required.contains(name)) checkExtension(name, false);
 }
 
 }  // namespace corridor::gltf

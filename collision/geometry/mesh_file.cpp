@@ -25,7 +25,7 @@ std::string lowerExtension(const std::filesystem::path& file) {
 }
 
 /// The formats that are read, for messages.
-constexpr const char* kFormats = "OBJ, STL, PLY, OFF, Collada or glTF";
+constexpr const char* kFormats = "OBJ, STL, PLY, OFF, Collada, glTF or 3MF";
 /// A format that OMPL.app's problems may use, which assimp reads. assimp lays its meshes on their
 /// side (a stored (x, y, z) arrives as (x, z, -y)) and applies a scale of the file.
 constexpr const char* kOmplAppFormat = ".3ds";
@@ -97,9 +97,9 @@ std::string upRule(const MeshFileOptions& options, const MeshFile& file) {
       rule = "coordinates as stored, since no up-axis was requested";
       break;
   }
-  if (file.isCollada) return rule + "; the file's own <up_axis> is not applied (ROS's rule)";
-  return rule +
-         (file.fileUp ? std::string("; the file's own, ") + *file.fileUp + ", is not applied" : "");
+  if (!file.fileUp || options.up == file.fileUp) return rule;
+  return rule + "; the file's own, " + *file.fileUp + ", is not applied" +
+         (options.up ? "" : " (ROS's rule)");
 }
 
 }  // namespace
@@ -123,9 +123,6 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
   const std::string extension = lowerExtension(file);
   if (!isMeshExtension(extension)) faults.fail(0, notRead(extension));
   ReadMesh read = readStored(file, extension, faults);
-  if (extension == ".3mf" && !options.metresPerUnit)
-    faults.fail(0, "the file has a unit, " + shortest(read.fileUnit) +
-                       " m, which is not applied; state the unit" + howToState(read.fileUnit));
   requireSound(read.mesh, faults);
   MeshFile result;
   result.mesh = std::move(read.mesh);
@@ -146,7 +143,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     }
   }
   result.unitRule = unitRule(options, read.fileUnit);
-  if (extension == ".3mf" && *options.metresPerUnit != read.fileUnit)
+  if (extension == ".3mf" && options.metresPerUnit.value_or(read.fileUnit) != read.fileUnit)
     result.notes.push_back("the file's own unit, " + shortest(read.fileUnit) +
                            " m, is not the stated one, " + shortest(*options.metresPerUnit) +
                            " m, which is used");
@@ -179,7 +176,9 @@ void toOmplApp(ReadMesh& read, const std::string& extension) {
 }
 
 /// Adds a fault if the bounds of a mesh are not those of assimp's import: then OMPL.app, which uses
-/// assimp, plans with another mesh.
+/// assimp, plans with another mesh. assimp computes in floats, so that its bounds differ by 2^-24
+/// of each coordinate and of each translation on the way; 1 % leaves room for translations that
+/// cancel. What a dropped or moved part changes less is not seen, and `mesh` is our own reader's.
 void compareBounds(const TriangleMesh& mesh, const TriangleMesh& byAssimp, MeshFaults& faults) {
   const auto boundsOf = [](const TriangleMesh& of) {
     std::array<Vec3, 2> bounds{Vec3::Constant(HUGE_VAL), Vec3::Constant(-HUGE_VAL)};

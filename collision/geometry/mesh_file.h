@@ -13,7 +13,6 @@ namespace corridor {
 /// How to interpret the coordinates of a mesh file.
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit if the format has one, else 1.
-  /// Required for 3MF, whose own unit is compared with it.
   std::optional<double> metresPerUnit = {};
   /// The file's up-axis ('x', 'y' or 'z'), which is rotated to z. 'y' maps (x, y, z) to (x, -z, y),
   /// and 'x' maps (x, y, z) to (-y, -z, x), as Collada's axes do. Unset: coordinates are not

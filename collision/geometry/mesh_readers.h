@@ -18,7 +18,7 @@ struct ReadMesh {
   std::string format;                   ///< name of the format for messages, e.g. "STL (binary)"
   std::vector<std::string> notes = {};  ///< on content that is not read
   std::vector<StatedUnit> statedUnits = {};  ///< in comments, headers and names; not applied
-  double fileUnit = 0;  ///< metres, by the file or its format; 0: none; not applied
+  double fileUnit = 0;  ///< metres, by the file or its format; 0: none; not applied yet
   char up = 0;          ///< the up-axis that the file or its format states; 0: none; not applied
   std::vector<std::string> otherFiles = {};  ///< that were read with it
 };

@@ -17,6 +17,9 @@ namespace {
 constexpr int kMostDepth = 500;
 constexpr std::uint64_t kMostVisits = 1'000'000, kMostChildren = 2'000'000;
 constexpr std::size_t kMostNotes = 100;
+/// Above the loss of a product that is too small for a double, also where the processor flushes
+/// such products to 0.
+constexpr double kLeastNormal = std::numeric_limits<double>::min();
 
 TriangleMesh welded(const TriangleMesh& mesh) {
   VertexWelder welder(mesh.vertices.size());
@@ -43,10 +46,9 @@ NodePath NodePath::below(const Eigen::Affine3d& step) const {
   path.scale_ = scale_ * stretch;
   path.length_ = length_ + scale_ * length;
   // An error e of each entry is one of less than 2e‖step‖ of each entry of the product, which
-  // loses at most half of the least number in each of three products.
-  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
-  path.lost_ = 2 * lost_ * stretch + 2 * kLeast;
-  path.lostLength_ = lostLength_ + 2 * lost_ * length + 2 * kLeast;
+  // loses at most the least normal number in each of three products.
+  path.lost_ = 2 * lost_ * stretch + 4 * kLeastNormal;
+  path.lostLength_ = lostLength_ + 2 * lost_ * length + 4 * kLeastNormal;
   path.steps_ = steps_ + 1;
   return path;
 }
@@ -57,16 +59,22 @@ NodePath NodePath::below(const Eigen::Affine3d& step) const {
 /// a point adds 16u more.
 double NodePath::rounding(double farthest) const {
   if (steps_ == 0) return 0;
-  const double least = map_.linear().cwiseAbs().maxCoeff();
-  if (!(scale_ < kMostMagnitude && length_ < kMostMagnitude && least > kLeastMagnitude))
+  const double largest = map_.linear().cwiseAbs().maxCoeff();
+  if (!(scale_ < kMostMagnitude && length_ < kMostMagnitude && largest > kLeastMagnitude))
     return HUGE_VAL;
   return (32.0 * steps_ + 16) * kUnit * (scale_ * farthest + length_) +
-         4 * (lost_ * farthest + lostLength_) + 8 * std::numeric_limits<double>::denorm_min();
+         4 * (lost_ * farthest + lostLength_) + 8 * kLeastNormal;
 }
 
 bool NodePath::isMirrored() const {
-  const Mat3& map = map_.linear();
-  return (map / map.cwiseAbs().maxCoeff()).determinant() < 0;  // scaled, so as not to underflow
+  Mat3 map = map_.linear();
+  for (int k = 0; k < 3; ++k) map.col(k) /= map.col(k).cwiseAbs().maxCoeff();  // against underflow
+  return map.determinant() < 0;
+}
+
+bool isRoundedToZero(std::string_view text, double number) {
+  return number == 0 && text.substr(0, text.find_first_of("eE")).find_first_of("123456789") !=
+                            std::string_view::npos;
 }
 
 std::string wrongMagnitude(double number) {
@@ -94,6 +102,7 @@ void addNote(std::vector<std::string>& notes, const std::string& text) {
 }
 
 void SceneMesh::add(const ScenePart& part, const NodePath& path) {
+  placesMesh_ = true;
   TriangleMesh& mesh = read_.mesh;
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Vec3& vertex : part.vertices) mesh.vertices.push_back(path.map() * vertex);
@@ -122,18 +131,26 @@ void SceneMesh::add(const ScenePart& part, const NodePath& path) {
   const double error = path.rounding(farthest), extent = (upper - lower).stableNorm();
   if (farthest == 0 && path.map().translation().isZero(0)) return;  // all are the origin
   if (error == 0) return;
-  const double share = extent > 0 && error < HUGE_VAL ? error / extent : HUGE_VAL;
-  if (share > share_) error_ = error, share_ = share;
+  if (error == HUGE_VAL)
+    faults_.fail(
+        0, "the transforms of its nodes shrink a mesh to nothing, or stretch it beyond 1e250");
+  if (extent == 0)
+    faults_.fail(part.faces.front().line,
+                 "all vertices of a mesh are one point under the transforms of its nodes; correct "
+                 "them, or remove the mesh");
+  if (error / extent > share_) error_ = error, share_ = error / extent;
 }
 
 ReadMesh SceneMesh::take(std::string format) {
   faults_.throwIfAny();
   read_.format = std::move(format);
+  if (!placesMesh_) {
+    std::string why = "no node of its scene places a mesh";
+    for (const std::string& text : read_.notes) why += "; " + text;
+    faults_.fail(0, why);
+  }
   if (read_.mesh.triangles.empty()) return std::move(read_);
   if (const auto complaint = checkMesh(read_.mesh)) faults_.fail(0, *complaint);
-  if (error_ == HUGE_VAL)
-    faults_.fail(
-        0, "the transforms of its nodes shrink a mesh to nothing, or stretch it beyond 1e250");
   const std::string moves = "the transforms of its nodes may round a mesh by " +
                             withDigits(error_, 2) + " units of the file, more than ";
   if (!(share_ <= 1e-2))

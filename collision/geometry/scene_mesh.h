@@ -52,6 +52,8 @@ class NodePath {
 /// The range of numbers other than 0 in files of scenes, to keep products of transforms from
 /// vanishing or overflowing.
 constexpr double kLeastMagnitude = 1e-250, kMostMagnitude = 1e250;
+/// Says whether a number other than 0 was read as 0, as 1e-400 is.
+bool isRoundedToZero(std::string_view text, double number);
 /// Returns what is wrong with a number of a scene, or "".
 std::string wrongMagnitude(double number);
 
@@ -80,6 +82,7 @@ class SceneMesh {
   MeshFaults& faults_;
   ReadMesh read_;
   std::vector<PolygonFan> polygons_;
+  bool placesMesh_ = false;
   std::uint64_t visits_ = 0, children_ = 0;
   double error_ = 0, share_ = 0;  // the largest rounding of a part, by its share of the part's size
 };

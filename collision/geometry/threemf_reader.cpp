@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <minizip/unzip.h>
+#include <optional>
 #include <set>
 
 #include "collision/core/spelling.h"
@@ -22,12 +23,6 @@ constexpr const char* kInstead = "; save the mesh as OBJ, STL, PLY or OFF";
 /// An unpacked file needs a multiple of its size; the largest is that of other mesh files.
 constexpr std::size_t kMostUnpackedBytes = std::size_t{1} << 30;
 
-/// A file in the archive, and how many files have names with its end.
-struct PackedFile {
-  std::string name, bytes;
-  int count = 0;
-};
-
 class Archive {
  public:
   Archive(const std::string& file, MeshFaults& faults)
@@ -35,19 +30,14 @@ class Archive {
     if (!zip_) faults.fail(0, "the file is no ZIP archive" + std::string(kInstead));
   }
 
-  /// Returns the first file whose name has an end.
-  PackedFile find(std::string_view end) {
-    PackedFile found;
+  /// Returns the bytes of the file of this name. Capital and small letters are one, as in OPC.
+  std::string bytesOf(std::string_view wanted) {
+    std::optional<std::string> found;
     for (int status = unzGoToFirstFile(zip_.get()); status == UNZ_OK;
          status = unzGoToNextFile(zip_.get())) {
-      char name[65536];
       unz_file_info info;
-      if (unzGetCurrentFileInfo(zip_.get(), &info, name, sizeof name, nullptr, 0, nullptr, 0) !=
-          UNZ_OK)
-        faults_.fail(0, "its directory is damaged" + std::string(kInstead));
-      if (!lowered(std::string_view(name, info.size_filename)).ends_with(end)) continue;
-      if (++found.count > 1) continue;
-      found.name.assign(name, info.size_filename);
+      if (lowered(current(info)) != lowered(wanted)) continue;
+      if (found) faults_.fail(0, "has " + inQuotes(wanted) + " twice" + kInstead);
       if (info.uncompressed_size == 0xFFFFFFFF || info.compressed_size == 0xFFFFFFFF)
         faults_.fail(0,
                      "is a ZIP64 archive, which is not read; pack it as an ordinary ZIP, or save "
@@ -56,12 +46,35 @@ class Archive {
       if (info.uncompressed_size / 200 > info.compressed_size + (std::size_t{1} << 17))
         faults_.fail(
             0, "a file in it has more than 200 times its packed size" + std::string(kInstead));
-      found.bytes = unpacked(info.uncompressed_size);
+      if (info.compression_method != 0 && info.compression_method != Z_DEFLATED)
+        faults_.fail(0, "a file in it is packed by another method than that of ordinary ZIP files" +
+                            std::string(kInstead));
+      found = unpacked(info.uncompressed_size);
     }
-    return found;
+    if (!found) faults_.fail(0, "the archive has no file " + inQuotes(wanted) + kInstead);
+    return *found;
+  }
+
+  /// Returns the names of all files.
+  std::vector<std::string> names() {
+    std::vector<std::string> all;
+    for (int status = unzGoToFirstFile(zip_.get()); status == UNZ_OK;
+         status = unzGoToNextFile(zip_.get())) {
+      unz_file_info info;
+      all.push_back(current(info));
+    }
+    return all;
   }
 
  private:
+  /// Returns the name of the file at which the archive stands.
+  std::string current(unz_file_info& info) {
+    char name[65536];
+    if (unzGetCurrentFileInfo(zip_.get(), &info, name, sizeof name, nullptr, 0, nullptr, 0) !=
+        UNZ_OK)
+      faults_.fail(0, "its directory is damaged" + std::string(kInstead));
+    return {name, info.size_filename};
+  }
   std::string unpacked(std::size_t size) {
     if (size > kMostUnpackedBytes)
       faults_.fail(0, "its model has more than 1 GiB" + std::string(kInstead));
@@ -151,17 +164,10 @@ class ModelReader {
   /// prefix; they are about looks.
   void findObjects(const Element& resources) {
     std::set<std::uint32_t> ids;
+    xml::check(resources, {"object", "basematerials"}, {}, faults_, notes_, isLooks);
     for (const Element* resource = resources.FirstChildElement(); resource;
          resource = resource->NextSiblingElement()) {
-      const std::string_view name = nameOf(*resource);
-      const bool isObject = name == "object";
-      if (isObject) xml::requireNamespace(*resource, faults_);
-      if (!isObject && name != "basematerials" && !isLooks(name)) {
-        fault(*resource, "<" + printable(name) +
-                             "> is not supported in <resources>, and may be or move geometry" +
-                             kInstead);
-        continue;
-      }
+      const bool isObject = nameOf(*resource) == "object";
       if (!isObject && !xml::attribute(*resource, "id")) continue;
       const std::uint32_t id = xml::wholeNumber(*resource, "id", std::nullopt, faults_);
       if (!ids.insert(id).second)
@@ -238,12 +244,7 @@ class ModelReader {
     ScenePart& part = entry->second;
     if (!isNew) return part;
     checkObject(object);
-    for (const Element* child = mesh.FirstChildElement(); child;
-         child = child->NextSiblingElement())
-      if (const std::string_view name = nameOf(*child);
-          name != "vertices" && name != "triangles" && !isLooks(name))
-        fault(*child, "<" + printable(name) +
-                          "> is not supported in <mesh>, and may be or move geometry" + kInstead);
+    xml::check(mesh, {"vertices", "triangles"}, {}, faults_, notes_, isLooks);
     const Element* const vertices = onlyChild(mesh, "vertices", faults_);
     const Element* const triangles = onlyChild(mesh, "triangles", faults_);
     if (!vertices || !triangles) {
@@ -294,16 +295,27 @@ class ModelReader {
   std::map<const Element*, ScenePart> parts_;
 };
 
-/// Returns the name of the model to which the archive's relations point; "" if there is none.
+/// Returns the name of the model to which the archive's relations point.
 std::string modelNamed(const std::string& relations, MeshFaults& faults) {
   tinyxml2::XMLDocument document;
   const Element& root = xml::parse(document, relations, "Relationships", faults);
+  std::vector<std::string> notes;  // on attributes that have nothing to do with the model
+  xml::check(root, {"Relationship"}, {}, faults, notes);
   std::string target;
-  for (const Element* relation : childrenOf(root, "Relationship"))
-    if (xml::attribute(*relation, "Type") ==
-            "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" &&
-        target.empty())
-      target = xml::attribute(*relation, "Target").value_or("");
+  for (const Element* relation : childrenOf(root, "Relationship")) {
+    xml::check(*relation, {}, {"Id", "Type", "Target", "TargetMode"}, faults, notes);
+    if (xml::attribute(*relation, "Type") !=
+        "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")
+      continue;
+    if (!target.empty())
+      faults.add(
+          relation->GetLineNum(),
+          "_rels/.rels names a second model, which is not supported" + std::string(kInstead));
+    target = xml::required(*relation, "Target", faults);
+  }
+  if (target.empty())
+    faults.add(0, "_rels/.rels must name the model of the archive" + std::string(kInstead));
+  faults.throwIfAny();
   return target.substr(std::min(target.find_first_not_of('/'), target.size()));
 }
 
@@ -311,16 +323,15 @@ std::string modelNamed(const std::string& relations, MeshFaults& faults) {
 
 ReadMesh readThreeMf(const std::string& file, MeshFaults& faults) {
   Archive archive(file, faults);
-  const PackedFile model = archive.find(".model");
-  if (model.count > 1)
-    faults.fail(0, "the archive has " + std::to_string(model.count) +
-                       " models, which is not supported" + kInstead);
-  const PackedFile relations = archive.find("_rels/.rels");
-  if (model.count != 1 || relations.count != 1 || modelNamed(relations.bytes, faults) != model.name)
-    faults.fail(0, "the archive's _rels/.rels must name its model, 3D/3dmodel.model" +
-                       std::string(kInstead));
+  const std::string name = modelNamed(archive.bytesOf("_rels/.rels"), faults);
+  const std::string model = archive.bytesOf(name);
   tinyxml2::XMLDocument document;
-  return ModelReader(xml::parse(document, model.bytes, "model", faults), faults).read();
+  ReadMesh read = ModelReader(xml::parse(document, model, "model", faults), faults).read();
+  for (const std::string& other : archive.names())
+    if (const std::string small = lowered(other);
+        small.ends_with(".model") && !small.starts_with("__macosx/") && small != lowered(name))
+      addNote(read.notes, "the model " + inQuotes(other) + " of the archive is not read");
+  return read;
 }
 
 }  // namespace corridor

@@ -70,10 +70,11 @@ const Element& parse(tinyxml2::XMLDocument& document, std::string_view text, con
   if (error == tinyxml2::XML_ERROR_PARSING_ATTRIBUTE)
     faults.fail(document.ErrorLineNum(),
                 "is no complete XML: an attribute is damaged, or there twice");
+  if (error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT)
+    faults.fail(document.ErrorLineNum(), "is no complete XML: an element is not closed");
   if (error != tinyxml2::XML_SUCCESS)
-    faults.fail(document.ErrorLineNum(), "is no complete XML (" +
-                                             lowered(std::string(document.ErrorName()).substr(4)) +
-                                             "); save the mesh again");
+    faults.fail(document.ErrorLineNum(),
+                "is no complete XML; it may be cut off, so save the mesh again");
   const Element* found = nullptr;
   for (const tinyxml2::XMLNode* node = document.FirstChild(); node; node = node->NextSibling()) {
     if (node->ToComment() || node->ToDeclaration()) continue;
@@ -88,6 +89,8 @@ const Element& parse(tinyxml2::XMLDocument& document, std::string_view text, con
       faults.fail(node->GetLineNum(), "something comes before or after the root element");
     found = node->ToElement();
   }
+  if (found && attribute(*found, "xml:base"))
+    faults.fail(found->GetLineNum(), "xml:base is not read; remove it");
   if (!found || nameOf(*found) != root)
     faults.fail(found ? found->GetLineNum() : 0,
                 "the root element must be <" + std::string(root) + ">" +
@@ -117,7 +120,7 @@ void requireNamespace(const Element& element, MeshFaults& faults) {
 
 void check(const Element& element, std::initializer_list<std::string_view> children,
            std::initializer_list<std::string_view> attributes, MeshFaults& faults,
-           std::vector<std::string>& notes) {
+           std::vector<std::string>& notes, bool (*isOther)(std::string_view)) {
   for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling()) {
     if (node->ToUnknown())
       faults.add(node->GetLineNum(), "<!" + printable(node->Value()) + "> is not read; remove it");
@@ -134,7 +137,7 @@ void check(const Element& element, std::initializer_list<std::string_view> child
         requireNamespace(*child, faults);  // one of another program is skipped
       continue;
     }
-    if (name == "extra" && isCollada(element)) continue;
+    if ((name == "extra" && isCollada(element)) || (isOther && isOther(name))) continue;
     if (const auto colon = name.find(':');
         colon != name.npos && contains(children, name.substr(colon + 1))) {
       faults.add(child->GetLineNum(), tag(*child) +
@@ -150,6 +153,7 @@ void check(const Element& element, std::initializer_list<std::string_view> child
   for (const auto* a = element.FirstAttribute(); a; a = a->Next()) {
     if (++count > 100) faults.fail(element.GetLineNum(), tag(element) + " has over 100 attributes");
     const std::string_view name = a->Name();
+    if (name == "xml:base") faults.add(element.GetLineNum(), "xml:base is not read; remove it");
     if (contains(attributes, name) || name == "xmlns" || name.find(':') != name.npos) continue;
     const auto meant = std::find_if(
         attributes.begin(), attributes.end(),
@@ -211,6 +215,8 @@ std::vector<double> numbersIn(std::string_view text, const std::string& place, i
     double number = 0;
     std::string wrong = parseCoordinate(word, number).value_or("");
     if (wrong.empty()) wrong = wrongMagnitude(number);
+    if (wrong.empty() && isRoundedToZero(word, number))
+      wrong = "the number " + std::string(word) + " is not 0 or from 1e-250 to 1e250";
     if (!wrong.empty()) {
       faults.add(cursor.line(), place + ": " + wrong);
       return numbers;

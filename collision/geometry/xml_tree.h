@@ -34,9 +34,10 @@ void requireNamespace(const Element& element, MeshFaults& faults);
 /// names in another case, children of other names or namespaces, and texts are faults. In Collada,
 /// `<extra>`, which is for the program that wrote it, is skipped. Without `children`, a text is
 /// allowed.
+/// @param isOther  if not null, says of other children whether they may be there, unread
 void check(const Element& element, std::initializer_list<std::string_view> children,
            std::initializer_list<std::string_view> attributes, MeshFaults& faults,
-           std::vector<std::string>& notes);
+           std::vector<std::string>& notes, bool (*isOther)(std::string_view) = nullptr);
 
 std::size_t childCount(const Element& element);
 /// Returns the children of an element that have this name.

@@ -27,6 +27,13 @@ TEST(Spelling, SuggestsOnlyWhatMayBeMeant) {
   EXPECT_EQ(didYouMean("dijkstra", planners), "");
 }
 
+TEST(Spelling, PercentSignsOfUris) {
+  EXPECT_EQ(percentDecoded("my%20scene%2ebin"), "my scene.bin");
+  EXPECT_EQ(percentDecoded("%25%32%30"), "%20") << "once";
+  for (const char* const text : {"", "%", "50%", "%2", "%zz", "%2 0", "%00", "a%%"})
+    EXPECT_EQ(percentDecoded(text), text);
+}
+
 TEST(Spelling, KnownWords) {
   EXPECT_EQ(knownWords({"a", "b"}), " (known: a, b)");
   EXPECT_EQ(knownWords({}), "");

@@ -52,10 +52,10 @@ TEST_F(Collada, NodesAndUnitApplyButNotTheUpAxis) {
     EXPECT_TRUE(file.facesOnly);
     EXPECT_EQ(file.format, "Collada");
     EXPECT_EQ(file.unitRule, "0.0254 m per unit, by the file or its format");
-    EXPECT_EQ(file.upRule,
-              "coordinates as stored, since no up-axis was requested; the file's own <up_axis> is "
-              "not applied "
-              "(ROS's rule)");
+    EXPECT_EQ(
+        file.upRule,
+        std::string("coordinates as stored, since no up-axis was requested; the file's own, ") +
+            *file.fileUp + ", is not applied (ROS's rule)");
     EXPECT_EQ(file.mesh.vertices.size(), 5u);
   }
 }
@@ -74,11 +74,9 @@ TEST_F(Collada, UnitAndUpAxisAsRequested) {
       read("a.dae", collada("<unit meter=\"0.0254\"/><up_axis>Z_UP</up_axis>"), {0.5, 'y'});
   expectBounds(file.mesh, Vec3(4, -3, 2), Vec3(6, -3, 9));
   EXPECT_EQ(file.unitRule, "0.5 m per unit, as requested, instead of the file's own 0.0254 m");
-  EXPECT_EQ(
-      file.upRule,
-      "y is up, as requested: rotated by (x, y, z) -> (x, -z, y); the file's own <up_axis> is not "
-      "applied "
-      "(ROS's rule)");
+  EXPECT_EQ(file.upRule,
+            "y is up, as requested: rotated by (x, y, z) -> (x, -z, y); the file's own, z, is not "
+            "applied");
 }
 
 TEST_F(Collada, InvalidUnitsAndUpAxes) {
@@ -131,9 +129,11 @@ TEST_F(Collada, OmplAppAveragesAllVerticesThoseOfLinesToo) {
 }
 
 TEST_F(Collada, Complaints) {
-  EXPECT_THAT(complaint("a.dae", "hello"), testing::StartsWith("a.dae:1: is no complete XML ("));
+  EXPECT_THAT(complaint("a.dae", "hello"), testing::StartsWith("a.dae:1: is no complete XML; "));
   EXPECT_EQ(complaint("a.dae", collada("", "1e251")),
             "a.dae:5: <float_array>: the number 1e+251 is not 0 or from 1e-250 to 1e250");
+  EXPECT_EQ(complaint("a.dae", collada("", "-1e-400")),
+            "a.dae:5: <float_array>: the number -1e-400 is not 0 or from 1e-250 to 1e250");
   EXPECT_EQ(complaint("a.dae", collada("", "-1e-251")),
             "a.dae:5: <float_array>: the number -1e-251 is not 0 or from 1e-250 to 1e250");
   std::string noMesh = collada("");

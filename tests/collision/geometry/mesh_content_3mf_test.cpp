@@ -42,16 +42,18 @@ const std::string relations =
 /// Returns a 3MF file of one triangle. The places: the attributes of its model, the resources after
 /// the triangle, and the build, which are lines 4 and 5.
 std::string threeMf(const std::string& attributes, const std::string& resources = "",
-                    const std::string& build = R"(<item objectid="1"/>)") {
-  return archive(
-      {{"_rels/.rels", relations},
-       {"3D/3dmodel.model",
-        R"(<?xml version="1.0"?><model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )" +
-            attributes + R"(>
+                    const std::string& build = R"(<item objectid="1"/>)",
+                    std::vector<std::pair<std::string, std::string>> files = {}) {
+  files.push_back({"_rels/.rels", relations});
+  files.push_back(
+      {"3D/3dmodel.model",
+       R"(<?xml version="1.0"?><model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )" +
+           attributes + R"(>
 <resources><object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
 <vertex x="0" y="2" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>
 )" + resources +
-            "</resources>\n<build>" + build + "</build></model>"}});
+           "</resources>\n<build>" + build + "</build></model>"});
+  return archive(files);
 }
 const std::string model = "a.3mf";
 
@@ -60,21 +62,37 @@ TEST_F(MeshContent, ThreeMfArchives) {
   EXPECT_THAT(file.mesh.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)));
   EXPECT_THAT(file.notes, IsEmpty());
   EXPECT_EQ(file.fileUp, std::nullopt);
-  EXPECT_EQ(complaint("a.3mf", threeMf("unit=\"millimeter\"")),
-            "a.3mf: the file has a unit, 0.001 m, which is not applied; state the unit (unit: mm)");
+  EXPECT_EQ(read("a.3mf", threeMf("unit=\"millimeter\"")).mesh.vertices.at(2), Vec3(0, 0.002, 0));
   const auto fault = [&](const std::vector<std::pair<std::string, std::string>>& files) {
     return complaint("a.3mf", archive(files), inMetre);
   };
+  // The model is the one that the relations name.
+  EXPECT_THAT(read("a.3mf", threeMf("unit=\"meter\"", "", R"(<item objectid="1"/>)",
+                                    {{"3D/Objects/o.MODEL", "<model/>"},
+                                     {"__MACOSX/3D/._3dmodel.model", "resources"}}))
+                  .notes,
+              ElementsAre("the model \"3D/Objects/o.MODEL\" of the archive is not read"));
+  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other.model", "<model/>"}}),
+            "a.3mf: the archive has no file \"3D/3dmodel.model\"" + instead);
+  EXPECT_EQ(fault({{"3D/3dmodel.model", "<model/>"}}),
+            "a.3mf: the archive has no file \"_rels/.rels\"" + instead);
   EXPECT_EQ(fault({{"_rels/.rels", relations},
                    {"3D/3dmodel.model", "<model/>"},
-                   {"3D/Objects/o.MODEL", "<model/>"}}),
-            "a.3mf: the archive has 2 models, which is not supported" + instead);
-  const std::string noModel =
-      "a.3mf: the archive's _rels/.rels must name its model, 3D/3dmodel.model" + instead;
-  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other", "<model/>"}}), noModel);
-  EXPECT_EQ(fault({{"3D/3dmodel.model", "<model/>"}}), noModel);
-  EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/other.model", "<model/>"}}), noModel)
-      << "a model that is not the one that the relations name";
+                   {"3D/3DModel.model", "<model/>"}}),
+            "a.3mf: has \"3D/3dmodel.model\" twice" + instead);
+  const auto faultOf = [&](const std::string& old, const std::string& by) {
+    std::string relation = relations;
+    relation.replace(relation.find(old), old.size(), by);
+    return fault({{"_rels/.rels", relation}, {"3D/3dmodel.model", "<model/>"}});
+  };
+  EXPECT_EQ(faultOf("2013/01/3dmodel", "2013/01/other"),
+            "a.3mf: _rels/.rels must name the model of the archive" + instead);
+  EXPECT_THAT(faultOf("<Relationship ", "<r:Relationship "), HasSubstr("has a namespace prefix"));
+  EXPECT_EQ(faultOf("</Relationships>",
+                    R"(<Relationship Target="/b.model" Type=)"
+                    R"("http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>)"
+                    "</Relationships>"),
+            "a.3mf:2: _rels/.rels names a second model, which is not supported" + instead);
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<other/>"}}),
             model + ":1: the root element must be <model>, not <other>");
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<model></model>\n<x/>"}}),
@@ -178,13 +196,10 @@ TEST_F(MeshContent, ThreeMfElements) {
                      inMetre);
   };
   for (const std::string name : {"b:beamlattice", "s:slicestack", "slicestack"}) {
-    EXPECT_EQ(fault("<" + name + " id=\"2\"/>"),
-              model + ":4: <" + name +
-                  "> is not supported in <resources>, and may be or move geometry" + instead);
+    EXPECT_EQ(fault("<" + name + " id=\"2\"/>"), model + ":4: " + notIn("resources", name));
     EXPECT_EQ(placed("<" + name + "/>"), model + ":4: " + notIn("object", name));
     EXPECT_EQ(placed("<mesh><" + name + "/><vertices/><triangles/></mesh>"),
-              model + ":4: <" + name + "> is not supported in <mesh>, and may be or move geometry" +
-                  instead);
+              model + ":4: " + notIn("mesh", name));
   }
   EXPECT_EQ(placed("<extra/>"), model + ":4: " + notIn("object", "extra"));
   EXPECT_THAT(complaint("a.3mf",

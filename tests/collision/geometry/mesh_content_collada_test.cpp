@@ -86,6 +86,34 @@ TEST_F(ColladaContent, OtherNamespaces) {
               ElementsAre("<units> of <asset> is not read"));
 }
 
+TEST_F(ColladaContent, VersionsAndBases) {
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = colladaOf({});
+    return complaint("a.dae", text.replace(text.find(from), from.size(), to));
+  };
+  for (const std::string version : {"1.4.0", "1.5.0", "1.4"})
+    EXPECT_EQ(changed("1.4.1", version), "no complaint");
+  for (const std::string version : {"1.3.1", "2.0", ""})
+    EXPECT_EQ(
+        changed("1.4.1", version),
+        "a.dae:1: Collada " + version + " is not supported; save the mesh as Collada 1.4 or 1.5");
+  EXPECT_EQ(changed("version", "xml:base=\"b.dae\" version"),
+            "a.dae:1: xml:base is not read; remove it");
+  EXPECT_EQ(changed("<node", "<node xml:base=\"b.dae\""),
+            "a.dae:4: xml:base is not read; remove it");
+}
+
+/// It may move nodes.
+TEST_F(ColladaContent, KinematicsScenesThatBindJoints) {
+  std::string text = colladaOf({});
+  text.insert(text.find("</scene>"),
+              "<instance_kinematics_scene><bind_joint_axis target=\"n/a\"/>"
+              "</instance_kinematics_scene>");
+  EXPECT_EQ(complaint("a.dae", text),
+            "a.dae:5: the kinematics scene sets joints, which may move nodes and is not "
+            "supported; save the mesh in its pose");
+}
+
 /// TinyXML2 cuts a text at some of them.
 TEST_F(ColladaContent, ReferencesToNoCharacter) {
   for (const std::string text : {"&#;", "&#x;", "&#0;", "&#x0;", "&#x110000;", "&#x100000000;",
@@ -103,8 +131,13 @@ TEST_F(ColladaContent, OtherScenes) {
                                                    "</visual_scene></library_visual_scenes>");
   };
   EXPECT_THAT(notes(""), IsEmpty());
+  const std::string rest = " is not the one that <scene> names and not read";
   EXPECT_THAT(notes("<node id=\"m\"><instance_geometry url=\"#g\"/></node>"),
-              ElementsAre("visual scenes other than the one that <scene> names are not read"));
+              ElementsAre("the visual scene \"t\"" + rest));
+  EXPECT_THAT(notesWith(&ColladaParts::libraries,
+                        "<library_visual_scenes><visual_scene><node/></visual_scene>"
+                        "</library_visual_scenes>"),
+              ElementsAre("the visual scene" + rest));
 }
 
 /// A mesh of one point is legal; a transform that makes it one is not.
@@ -251,8 +284,11 @@ TEST_F(ColladaContent, Notes) {
   EXPECT_THAT(notesWith(&ColladaParts::faces,
                         threeFaces + "<lines count=\"1\">" + vertexInput + "<p>0 1</p></lines>"),
               ElementsAre(linesNote));
+  const std::string unplaced = " is in no node of the scene and not read";
   EXPECT_THAT(notesWith(&ColladaParts::inLibrary, "<geometry id=\"h\"><mesh/></geometry>"),
-              ElementsAre("geometries that are in no node of the scene are not read"));
+              ElementsAre("the geometry \"h\"" + unplaced));
+  EXPECT_THAT(notesWith(&ColladaParts::inLibrary, "<geometry><mesh/></geometry>"),
+              ElementsAre("the geometry" + unplaced));
   const std::string physics =
       "<library_physics_models><physics_model id='p'><rigid_body sid='r'><technique_common><shape>"
       "<box><half_extents>1 1 1</half_extents></box></shape></technique_common></rigid_body>"

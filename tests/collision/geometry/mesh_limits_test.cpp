@@ -144,7 +144,7 @@ TEST_F(MeshLimits, SizesOfFiles) {
 TEST_F(MeshLimits, OnlySupportedExtensions) {
   const std::string formats =
       " is not supported; save the mesh as OBJ, STL, PLY, OFF, "
-      "Collada or glTF";
+      "Collada, glTF or 3MF";
   // The content is OFF. assimp would recognise it, whatever the extension.
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const char* const extension : {".blend", ".fbx", ".x3d", ".amf", ".unknown"}) {

@@ -114,7 +114,7 @@ TEST_F(OmplAppMeshContent, ThreeDs) {
       chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, std::string("a\0", 2) + chunk(0x4100, mesh))));
   EXPECT_EQ(complaint("a.3ds", bytes),
             "a.3ds: the extension \".3ds\" is not supported; save the mesh as OBJ, STL, PLY, OFF, "
-            "Collada or glTF");
+            "Collada, glTF or 3MF");
   const OmplAppMesh read = readOmplAppMesh(folder_ / "a.3ds");
   EXPECT_THAT(read.mesh.vertices,
               testing::UnorderedElementsAre(Vec3(0, 5, 0), Vec3(1, 5, 0), Vec3(0, 5, -2)));

@@ -67,6 +67,16 @@ TEST(NodePath, TransformsThatVanish) {
   EXPECT_EQ(twice.rounding(1), HUGE_VAL);
 }
 
+TEST(NodePath, MirrorsOfAnySize) {
+  const auto isMirrored = [](double x, double y, double z) {
+    return NodePath().below(Eigen::Affine3d(Eigen::Scaling(x, y, z))).isMirrored();
+  };
+  for (const double s : {1e-249, 1e-170, 1e-5, 1.0, 1e170, 1e249}) {
+    EXPECT_TRUE(isMirrored(1, s, -s)) << s;
+    EXPECT_FALSE(isMirrored(1, -s, -s)) << s;
+  }
+}
+
 /// An entry of the product on the way is subnormal, and the later ones make it large again.
 TEST(NodePath, EntriesThatLoseDigitsOnTheWay) {
   NodePath path;
