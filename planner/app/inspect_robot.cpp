@@ -146,7 +146,9 @@ bool reportUnusable(const char* kind, const std::string& name, const std::string
 int inspectRobot(const InspectArguments& a) {
   const RobotSetup setup = readRobotAlone(a.file, RobotUse::describe);
   const RobotModel& model = setup.robot.description;
-  const std::vector<std::string> notes = textsOf(notesOf(setup));
+  std::vector<Note> found = notesOf(setup);
+  addAll(notesOnMeshes(model), found);
+  const std::vector<std::string> notes = textsOf(found);
   ordered_json j = {{"format", "corridor-inspect-robot-2"},
                     {"file", a.file},
                     {"name", model.name},

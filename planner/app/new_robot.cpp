@@ -192,6 +192,7 @@ int newRobot(const NewRobotArguments& a) {
   RobotFiles files = readFiles(a);
   RobotModel description = files.model;  // keeps what the text needs
   std::vector<std::string> noShapes;
+  addAll(notesOnMeshes(description), description.notes);
   for (LinkModel& link : description.links) {
     if (link.shapes.empty()) noShapes.push_back(link.name);
     link.shapes.clear();

@@ -1,6 +1,7 @@
 #include "planner/app/read_mesh.h"
 
 #include <iostream>
+#include <vector>
 
 #include "collision/core/spelling.h"
 #include "collision/geometry/stated_unit.h"
@@ -17,7 +18,10 @@ MeshFile readMeshAs(const std::string& file, const std::optional<std::string>& u
 
 MeshFile readMeshAndPrintNotes(const std::string& file) {
   MeshFile mesh = readMeshFile(file);
-  for (const std::string& text : mesh.notes)
+  std::vector<std::string> notes = mesh.notes;
+  if (mesh.fileUp.value_or('z') != 'z')
+    notes.push_back(std::string("the file's up-axis, ") + *mesh.fileUp + ", is not applied");
+  for (const std::string& text : notes)
     std::cerr << "note: " << withoutControls(file + ": " + text) << '\n';
   return mesh;
 }

@@ -20,17 +20,19 @@
 namespace corridor {
 namespace {
 
-/// Adds the notes on mesh files: one for each text, with the files.
-void addNotesOnMeshes(Problem& problem) {
+/// Returns the notes on the mesh files of bodies or links: one for each text, with the files.
+template <class Owners>
+std::vector<Note> notesOnFiles(const Owners& owners) {
   std::map<std::string, std::set<std::string>> files;
-  for (const ModelBody& body : problem.model.bodies)
-    for (const PlacedShape& shape : body.shapes)
+  for (const auto& owner : owners)
+    for (const PlacedShape& shape : owner.shapes)
       if (shape.mesh)
         for (const std::string& text : shape.mesh->notes) files[text].insert(shape.file.string());
+  std::vector<Note> notes;
   for (const auto& [text, names] : files)
-    problem.source.notes.push_back(
-        {text + ": " + joinedFirst({names.begin(), names.end()}, 3),
-         text == kNoteOnLines ? NoteWeight::detail : NoteWeight::coverage});
+    notes.push_back({text + ": " + joinedFirst({names.begin(), names.end()}, 3),
+                     text == kNoteOnLines ? NoteWeight::detail : NoteWeight::coverage});
+  return notes;
 }
 
 void addNotesOnPairs(Problem& problem) {
@@ -38,7 +40,7 @@ void addNotesOnPairs(Problem& problem) {
   addAll(notesOnReach(problem), notes);
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes) addAll(shape.notes, notes);
-  addNotesOnMeshes(problem);
+  addAll(notesOnFiles(problem.model.bodies), notes);
   if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
 }
 
@@ -139,6 +141,10 @@ void requireFiniteSizes(const Model& model, const std::string& file) {
 }
 
 }  // namespace
+
+std::vector<Note> notesOnMeshes(const RobotModel& robot) {
+  return notesOnFiles(robot.links);
+}
 
 std::vector<Note> notesOf(const RobotSetup& setup) {
   std::vector<Note> notes = setup.robot.description.notes;

@@ -13,6 +13,10 @@ namespace corridor {
 /// the last note lists these joints.
 std::vector<Note> notesOf(const RobotSetup& setup);
 
+/// Returns the notes on the robot's mesh files, each with the files. `finishProblem` adds them to a
+/// problem's.
+std::vector<Note> notesOnMeshes(const RobotModel& robot);
+
 /// Adds the robots to the model that `builder` makes, and their notes and files to `source`.
 void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& source);
 

@@ -149,10 +149,11 @@ MeshStore::FoundMesh MeshStore::inPackage(const std::string& name) {
     known = rosFolders_.emplace(package, foldersOfPackage(package)).first;
   for (const std::filesystem::path& folder : known->second)
     if (whyNotOrdinaryFile(folder / rest).empty()) return found(folder);
-  if (!known->second.empty())
-    return {known->second.front() / rest, "package " + quotedWord(package) + " is found at " +
-                                              known->second.front().string() + ", but has no " +
-                                              rest.string()};
+  const auto lacks = [&](const std::filesystem::path& folder) -> FoundMesh {
+    return {folder / rest, "package " + quotedWord(package) + " is found at " + folder.string() +
+                               ", but has no " + rest.string()};
+  };
+  if (!known->second.empty()) return lacks(known->second.front());
   for (const Folder& folder : above)
     if (whyNotOrdinaryFile(folder.path / package / rest).empty())
       return found(folder.path / package);
@@ -166,6 +167,9 @@ MeshStore::FoundMesh MeshStore::inPackage(const std::string& name) {
     guessed_.try_emplace(package, folder.path);
     return {folder.path / rest, ""};
   }
+  for (const Folder& one : above)
+    if (std::error_code none; std::filesystem::is_directory(one.path / package, none))
+      return lacks(one.path / package);
   if (!missing_.insert(package).second) {  // reported before
     meshes_[beside];
     return {beside, ""};
@@ -195,7 +199,12 @@ MeshStore::FoundMesh MeshStore::locate(const std::string& name) {
 }
 
 MeshStore::FoundMesh MeshStore::add(const std::string& name) {
-  FoundMesh place = locate(name);
+  // Names with a scheme are URIs, in which %20 is a blank. Some programs write them as they are.
+  const std::string decoded = name.find("://") == name.npos ? name : percentDecoded(name);
+  FoundMesh place = locate(decoded);
+  if (!place.complaint.empty() && decoded != name)
+    if (FoundMesh plain = locate(name); whyNotOrdinaryFile(plain.file).empty())
+      place = std::move(plain);
   if (!place.file.empty() && std::find(files_.begin(), files_.end(), place.file) == files_.end())
     files_.push_back(place.file);
   if (!place.complaint.empty() || meshes_.contains(place.file)) return place;

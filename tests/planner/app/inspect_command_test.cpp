@@ -73,6 +73,23 @@ TEST_F(InspectCommand, DescribesARobotThatCannotMove) {
   expectFault("new problem still.yaml", "still.yaml:2: urdf: " + why);
 }
 
+/// What a mesh file says beyond its triangles is noted wherever the robot is described.
+TEST_F(InspectCommand, NotesOnTheMeshesOfRobots) {
+  write("lined.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n");
+  write("lined.urdf",
+        "<robot name='lined'><link name='a'/><link name='b'><collision><geometry>"
+        "<mesh filename='file://" +
+            (folder_ / "lined.obj").string() +
+            "'/></geometry></collision></link><joint name='j' type='continuous'><parent link='a'/>"
+            "<child link='b'/></joint></robot>");
+  const Result text = run("inspect lined.urdf");
+  EXPECT_THAT(text.out, testing::ContainsRegex("\nnote: .*lined.obj")) << text.err;
+  const auto json = nlohmann::json::parse(run("inspect lined.urdf --json").out);
+  EXPECT_THAT(json["notes"].dump(), HasSubstr("lined.obj"));
+  ASSERT_EQ(run("new robot lined.urdf -o r.yaml").status, 0);
+  EXPECT_THAT(read("r.yaml"), testing::ContainsRegex("\n# Note: .*lined.obj"));
+}
+
 TEST_F(InspectProblem, ReportsPosesOfObstaclesAndHeldJoints) {
   write(
       "robot.yaml",

@@ -350,6 +350,10 @@ TEST_F(UrdfFaults, MeshFiles) {
       complaint("package://arm_descripton/a.stl"),
       of + "\"package://arm_descripton/a.stl\": arm_descripton/a.stl is not a file, and "
            "no folder of package \"arm_descripton\" was found (did you mean \"arm_description\"?)");
+  std::filesystem::create_directories(folder_ / "claw");
+  EXPECT_EQ(
+      complaint("package://claw/a.stl"),
+      of + "\"package://claw/a.stl\": package \"claw\" is found at " + "claw, but has no a.stl");
   EXPECT_EQ(
       complaint("package://hand/a.stl"),
       of + "\"package://hand/a.stl\": hand/a.stl is not a file, and no folder of package \"hand\" "

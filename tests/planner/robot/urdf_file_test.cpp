@@ -235,6 +235,21 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
 }
 
+/// Names with a scheme are URIs; a name that is not encoded counts where no file has the decoded
+/// one.
+TEST_F(UrdfFile, MeshesWithBytesInHexadecimal) {
+  const std::string wedge = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+  for (const std::string name : {"a b.obj", "c%20d.obj", "c d.obj", "e%20f.obj"})
+    write("hand/" + name, wedge);
+  const auto named = [&](const std::string& name) {
+    return collision("<mesh filename=\"" + name + "\"/>");
+  };
+  modelOf(link("a", named("package://hand/a%20b.obj") + named("package://hand/c%20d.obj") +
+                        named("package://hand/e%20f.obj") + named("hand/e%20f.obj")));
+  EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "hand/a b.obj",
+                                 folder_ / "hand/c d.obj", folder_ / "hand/e%20f.obj"}));
+}
+
 TEST_F(UrdfFile, ThreeSlashesAreReadAsTwo) {
   write("hand/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
   const std::string three = collision("<mesh filename=\"package:///hand/a.obj\"/>");
