@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
+#include "collision/core/text_encoding.h"
 
 namespace corridor {
 namespace {
@@ -171,6 +172,12 @@ std::string readFile(const std::filesystem::path& file, const std::string& what,
   return bytes;
 }
 
+void requireOwnFormat(std::string_view bytes, const std::filesystem::path& file,
+                      const std::string& what) {
+  const std::string other = foreignFormat(bytes.substr(0, 64));
+  if (!other.empty()) fail(file.string(), "is " + other + "; " + what + " is needed");
+}
+
 std::string withLineFeeds(std::string text) {
   for (std::size_t at = text.find('\r'); at != text.npos; at = text.find('\r', at + 1))
     if (at + 1 == text.size() || text[at + 1] != '\n') text[at] = '\n';
@@ -179,6 +186,7 @@ std::string withLineFeeds(std::string text) {
 
 std::string readTextFile(const std::filesystem::path& file, const std::string& what) {
   std::string text = readFile(file, what, kMostDocumentBytes);
+  requireOwnFormat(text, file, what);
   requireText(text, 0, file.string());
   return withLineFeeds(notBlank(std::move(text), file.string(), what));
 }
@@ -190,6 +198,7 @@ std::string readTextStream(const std::filesystem::path& file, const std::string&
   if (std::filesystem::is_fifo(file, none))
     return withLineFeeds(readPipe(OpenFile(file, 0).descriptor(), name, what));
   std::string text = readFile(file, what);
+  requireOwnFormat(text, file, what);
   requireText(text, 0, name);
   return withLineFeeds(notBlank(std::move(text), name, what));
 }

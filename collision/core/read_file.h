@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 /// Functions that read input files. No other code reads input files, except the helper program that
 /// uses assimp, and `isSolutionFile`, which reads the first bytes of a file that is there. The
@@ -32,20 +33,26 @@ void requireFile(const std::filesystem::path& file, const std::string& what,
 std::string readFile(const std::filesystem::path& file, const std::string& what,
                      std::uint64_t most = kMostFileBytes);
 
+/// @throws InputError if a file begins like a web page, an archive, an image or another format that
+/// is not read here. @param what  for messages: "a mesh file".
+void requireOwnFormat(std::string_view bytes, const std::filesystem::path& file,
+                      const std::string& what);
+
 /// Returns the text with LF in place of each CR that no LF follows. Such a CR ends a line, but most
 /// readers of lines and of comments end them at LF only, and would lose the next line.
 std::string withLineFeeds(std::string text);
 
 /// Returns the text of a document, `withLineFeeds`. @param what  for messages: "a problem".
-/// @throws InputError in the cases of `requireFile`; also if the file has more than 256 MiB
-/// (`kMostDocumentBytes`), consists of blanks only, or contains a byte 0, which no text has.
+/// @throws InputError in the cases of `requireFile` and `requireOwnFormat`; also if the file has
+/// more than 256 MiB (`kMostDocumentBytes`), consists of blanks only, or contains a byte 0, which
+/// no text has.
 std::string readTextFile(const std::filesystem::path& file, const std::string& what);
 
 /// Returns the text of a list that may be long or come from a pipe, `withLineFeeds`; "-" and
 /// "/dev/stdin" are the standard input. Reads a pipe to its end, and waits for its writer.
-/// @throws InputError for an ordinary file: in the cases of `requireFile`. For every input: if the
-/// text has more than 4 GiB (`kMostFileBytes`), consists of blanks only, or contains a byte 0.
-/// After a byte 0, a pipe is not read further.
+/// @throws InputError for an ordinary file: as `requireFile` and `requireOwnFormat`. For every
+/// input: if the text has more than 4 GiB (`kMostFileBytes`), consists of blanks only, or contains
+/// a byte 0. After a byte 0, a pipe is not read further.
 std::string readTextStream(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace corridor

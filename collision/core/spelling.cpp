@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "collision/core/text_encoding.h"
+
 namespace corridor {
 
 std::string lowered(std::string_view word) {
@@ -93,9 +95,20 @@ std::string notOneOf(std::string_view word, const std::vector<std::string>& word
 }
 
 std::string withoutControls(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-  return text;
+  const auto isControl = [](char32_t c) {
+    return c < ' ' || (c >= 0x7F && c < 0xA0) || c == 0x061C || c == 0x200E || c == 0x200F ||
+           (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
+  };
+  std::string shown;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto [number, bytes] = characterAt(text, at);
+    if (bytes == 0 || isControl(number))
+      shown += '?';
+    else
+      shown.append(text, at, bytes);
+    at += std::max<std::size_t>(bytes, 1);
+  }
+  return shown;
 }
 
 std::string quotedWord(std::string_view word) {

@@ -41,8 +41,10 @@ std::string joined(const std::vector<std::string>& words);
 /// `didYouMean`.
 std::string notOneOf(std::string_view word, const std::vector<std::string>& words);
 
-/// Returns the text with each control character of ASCII replaced by '?'. Names and texts in files
-/// may contain such characters, which would send commands to a terminal or break a line.
+/// Returns the text with '?' in place of each byte that is not UTF-8, and of each character that
+/// controls a terminal or a line: control characters of ASCII and of Latin-1, line and paragraph
+/// separators, and those that change the direction of text. Names and texts in files may contain
+/// them.
 std::string withoutControls(std::string text);
 
 /// Returns the word for a message: in double quotes, with control characters as '?'. A word of more

@@ -2,7 +2,11 @@
 
 #include <cerrno>
 #include <csignal>
+#include <ext/stdio_filebuf.h>
+#include <fcntl.h>
 #include <fstream>
+#include <random>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -30,19 +34,39 @@ class SignalBlocker {
   sigset_t before_{};
 };
 
-/// A file that is removed unless it is renamed.
+/// A new file that is removed unless it is renamed. Its name can't be foreseen, and nothing that
+/// has this name, such as a link, is opened. It is short, since the names of files have at most 255
+/// bytes.
 class Draft {
  public:
-  explicit Draft(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit Draft(const std::filesystem::path& folder) {
+    std::random_device random;
+    for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
+      path_ = folder / (".corridor" + std::to_string(random()) + ".tmp");
+      descriptor_ =
+          ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && errno != EEXIST) break;
+    }
+    if (descriptor_ < 0) failure_ = errno, path_.clear();
+  }
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
   ~Draft() {
     std::error_code ignored;
     if (!path_.empty()) std::filesystem::remove(path_, ignored);
   }
-  const std::filesystem::path& path() const { return path_; }
-  /// @returns 0, or the system's error number.
-  int rename(const std::filesystem::path& file) {
+
+  /// Gives the file the mode of another one, if that exists, writes it, and gives it the other's
+  /// name. @returns 0, or the system's error number (-1 if it gives none).
+  int replace(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
+    if (failure_ != 0) return failure_;
+    struct stat old {};
+    if (::stat(file.c_str(), &old) == 0) ::fchmod(descriptor_, old.st_mode & 07777);
+    errno = 0;
+    __gnu_cxx::stdio_filebuf<char> buffer(descriptor_, std::ios::out | std::ios::binary);
+    std::ostream out(&buffer);
+    write(out);
+    if (!out.flush() || !buffer.close()) return errno != 0 ? errno : -1;
     std::error_code failure;
     std::filesystem::rename(path_, file, failure);
     if (!failure) path_.clear();
@@ -51,15 +75,29 @@ class Draft {
 
  private:
   std::filesystem::path path_;
+  int descriptor_ = -1;
+  int failure_ = 0;
 };
 
-/// Writes the file. @returns 0, or the system's error number (-1 if it gives none).
-int writeFile(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
+/// Writes to a device or a pipe. @returns 0, or the system's error number (-1 if it gives none).
+int writeDirectly(const std::filesystem::path& file,
+                  const std::function<void(std::ostream&)>& write) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);
   if (out) write(out);
   if (out) out.close();
   return out ? 0 : errno != 0 ? errno : -1;
+}
+
+/// Returns the file to which a symbolic link leads, which need not exist, or the file itself.
+std::filesystem::path targetOf(std::filesystem::path file) {
+  std::error_code failure;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(file, failure); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(file, failure);
+    if (failure) break;
+    file = file.parent_path() / next;
+  }
+  return file;
 }
 
 std::string helpFor(int failure) {
@@ -86,12 +124,11 @@ void writeWhole(const std::filesystem::path& file,
   int failure = 0;
   // Renaming a file over a device or a pipe would replace it.
   if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
-    failure = writeFile(file, write);
+    failure = writeDirectly(file, write);
   } else {
     const SignalBlocker wait;
-    Draft draft(file.string() + ".tmp" + std::to_string(::getpid()));
-    failure = writeFile(draft.path(), write);
-    if (failure == 0) failure = draft.rename(file);
+    const std::filesystem::path target = targetOf(file);
+    failure = Draft(target.parent_path()).replace(target, write);
   }
   if (failure != 0)
     throw InputError(

@@ -42,6 +42,7 @@ void ColladaDocument::checkAsset(const Element& element) {
 }
 
 ColladaDocument::Asset ColladaDocument::assetOf(const Element& element, Asset asset) {
+  xml::requireNoText(element, faults_);
   if (const Element* const unit = onlyChild(element, "unit", faults_)) {
     check(*unit, {}, {"meter", "name"});
     const auto meter = xml::attribute(*unit, "meter");

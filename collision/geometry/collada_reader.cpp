@@ -27,12 +27,15 @@ class ColladaReader {
         version && !version->starts_with("1.4") && !version->starts_with("1.5"))
       document_.fault(root_, "Collada " + printable(*version) +
                                  " is not supported; save the mesh as Collada 1.4 or 1.5");
+    xml::requireNoText(root_, faults_);
     for (const Element* child = root_.FirstChildElement(); child;
-         child = child->NextSiblingElement())
+         child = child->NextSiblingElement()) {
       if (const std::string_view name = nameOf(*child);
           !name.starts_with("library_") && name != "asset" && name != "scene" && name != "extra")
         document_.fault(*child, "<" + printable(name) +
                                     "> is not known in <COLLADA>; correct its name, or remove it");
+      xml::requireNamespace(*child, faults_);
+    }
     document_.readAsset(root_);
     findIds();
     faults_.throwIfAny();
@@ -42,6 +45,10 @@ class ColladaReader {
         if (!parts_.contains(geometry))
           document_.note("the geometry" + named(*geometry) +
                          " is in no node of the scene and not read");
+    for (const char* const library : {"library_animations", "library_animation_clips"})
+      if (const Element* const animations = root_.FirstChildElement(library);
+          animations && hasDescendant(*animations, "channel"))
+        document_.note("animations are not applied: the mesh is read in its resting pose");
     for (const Element* models : childrenOf(root_, "library_physics_models"))
       if (hasDescendant(*models, "shape"))
         document_.note("the shapes of physics models are not read");

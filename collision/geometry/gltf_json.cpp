@@ -5,6 +5,7 @@
 #include <set>
 
 #include "collision/core/spelling.h"
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/scene_mesh.h"
 
 namespace corridor::gltf {
@@ -51,8 +52,7 @@ void checkNumbers(std::string_view text, MeshFaults& faults) {
 }  // namespace
 
 Json parse(std::string_view text, MeshFaults& faults) {
-  if (text.starts_with("\xEF\xBB\xBF"))
-    faults.fail(0, "begins with a byte-order mark, which glTF doesn't allow; remove it");
+  text = withoutByteOrderMark(text);  // readers may skip it (RFC 8259, section 8.1)
   checkNumbers(text, faults);
   std::vector<std::set<std::string>> open;
   const auto check = [&](int depth, Json::parse_event_t event, const Json& parsed) {

@@ -38,6 +38,8 @@ class GltfReader {
         document_.fault('"' + std::string(list) + "\" is not an array");
     document_.checkExtensions();
     faults_.throwIfAny();
+    if (!member(root_, "animations").empty())
+      document_.note("animations are not applied: the mesh is read in its resting pose");
     parts_.resize(member(root_, "meshes").size());
     readScene();
     for (const std::string& text : document_.notes()) scene_.note(text);

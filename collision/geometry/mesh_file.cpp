@@ -43,17 +43,20 @@ bool isMeshExtension(const std::string& extension) {
 /// Reads a file of a format that is read, without scale or rotation.
 ReadMesh readStored(const std::filesystem::path& file, const std::string& extension,
                     MeshFaults& faults) {
-  if (extension == ".obj") return readObj(readFile(file, kWhat), faults);
-  if (extension == ".stl") return readStl(readFile(file, kWhat), faults);
-  if (extension == ".ply") return readPly(readFile(file, kWhat), faults);
-  if (extension == ".off") return readOff(readFile(file, kWhat), faults);
-  if (extension == ".dae") return readCollada(readFile(file, kWhat, kMostSceneBytes), faults);
-  if (extension == ".gltf")
-    return readGltf(file.string(), readFile(file, kWhat, kMostSceneBytes), faults);
-  if (extension == ".glb")
-    return readGlb(file.string(), readFile(file, kWhat, kMostSceneBytes), faults);
-  requireFile(file, kWhat, kMostSceneBytes);
-  return readThreeMf(file.string(), faults);
+  if (extension == ".3mf") {
+    requireFile(file, kWhat, kMostSceneBytes);
+    return readThreeMf(file.string(), faults);
+  }
+  const bool isScene = extension == ".dae" || extension == ".gltf" || extension == ".glb";
+  const std::string bytes = readFile(file, kWhat, isScene ? kMostSceneBytes : kMostFileBytes);
+  requireOwnFormat(bytes, file, kWhat);
+  if (extension == ".obj") return readObj(bytes, faults);
+  if (extension == ".stl") return readStl(bytes, faults);
+  if (extension == ".ply") return readPly(bytes, faults);
+  if (extension == ".off") return readOff(bytes, faults);
+  if (extension == ".dae") return readCollada(bytes, faults);
+  if (extension == ".gltf") return readGltf(file.string(), bytes, faults);
+  return readGlb(file.string(), bytes, faults);
 }
 
 void requireSound(const TriangleMesh& mesh, MeshFaults& faults) {
@@ -143,7 +146,7 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     }
   }
   result.unitRule = unitRule(options, read.fileUnit);
-  if (extension == ".3mf" && options.metresPerUnit.value_or(read.fileUnit) != read.fileUnit)
+  if (read.fileUnit > 0 && options.metresPerUnit.value_or(read.fileUnit) != read.fileUnit)
     result.notes.push_back("the file's own unit, " + shortest(read.fileUnit) +
                            " m, is not the stated one, " + shortest(*options.metresPerUnit) +
                            " m, which is used");

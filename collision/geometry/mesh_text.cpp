@@ -22,6 +22,12 @@ std::string inQuotes(std::string_view word) {
   return '"' + printable(word) + '"';
 }
 
+void addNote(std::vector<std::string>& notes, const std::string& text) {
+  constexpr std::size_t most = 100;
+  if (notes.size() > most || std::ranges::count(notes, text) > 0) return;
+  notes.push_back(notes.size() < most ? text : "more is not read than these notes say");
+}
+
 void MeshFaults::fail(int line, std::string text) {
   add(line, std::move(text));
   faults_.throwIfAny();

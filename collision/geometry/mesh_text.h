@@ -17,6 +17,8 @@ namespace corridor {
 /// Returns the word for a message. Bytes that are not printable ASCII become '?'. A word of more
 /// than 32 bytes is cut after 32 bytes, and "..." marks the cut.
 std::string printable(std::string_view word);
+/// Adds a note, if it is new. After a hundred, one note says that there are more.
+void addNote(std::vector<std::string>& notes, const std::string& text);
 /// Returns `printable(word)` in double quotes.
 std::string inQuotes(std::string_view word);
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/mesh_readers.h"
 
@@ -41,7 +42,7 @@ class ObjReader {
       } else if (keyword == "f") {
         readFace();
       } else if (keyword == "l" || keyword == "p") {
-        notes_ = {kNoteOnLines};
+        addNote(notes_, kNoteOnLines);
       } else if (!keyword.empty()) {
         checkKeyword(keyword, cursor_.line(), faults_);
       }
@@ -68,10 +69,13 @@ class ObjReader {
   /// begins with '#'. A backslash at the end of a line continues the logical line on the next line.
   std::string_view nextWord() {
     std::string_view word = cursor_.wordInLine();
+    if (continued_ && !word.empty()) faultBackslash();
     while (word == "\\" || (word.empty() && continued_)) {
+      if (!continued_ && !cursor_.wordInLine().empty()) faultBackslash();
       continued_ = false;
       if (!cursor_.nextLine()) return {};
       word = cursor_.wordInLine();
+      if (word == "f" || word == "v") noteContinued(word);
     }
     continued_ = !word.empty() && word.back() == '\\';
     if (continued_) word.remove_suffix(1);
@@ -79,6 +83,16 @@ class ObjReader {
     continued_ = false;
     addStatedUnit(cursor_.takeLineFrom(word), cursor_.line(), statedUnits_);
     return {};
+  }
+
+  void faultBackslash() {
+    faults_.add(cursor_.line(),
+                "a backslash continues a line only at its end; something follows it");
+  }
+  void noteContinued(std::string_view word) {
+    addNote(notes_, "line " + std::to_string(cursor_.line()) + ", which begins with " +
+                        std::string(word) +
+                        ", continues the line above, which ends in a backslash");
   }
 
   void skipWords() {  // of the logical line, which may go on for several lines
@@ -164,8 +178,7 @@ class ObjReader {
 ReadMesh readObj(std::string_view text, MeshFaults& faults) {
   // A byte-order mark would hide the first keyword. If the hidden keyword is `v`, all vertex
   // numbers would be off by one.
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  return ObjReader(text, faults).read();
+  return ObjReader(withoutByteOrderMark(text), faults).read();
 }
 
 }  // namespace corridor

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/mesh_limits.h"
 #include "collision/geometry/mesh_readers.h"
@@ -172,7 +173,7 @@ class OffReader {
 }  // namespace
 
 ReadMesh readOff(std::string_view text, MeshFaults& faults) {
-  return OffReader(text, faults).read();
+  return OffReader(withoutByteOrderMark(text), faults).read();
 }
 
 }  // namespace corridor

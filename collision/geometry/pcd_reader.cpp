@@ -320,7 +320,10 @@ PointCloud readPcd(std::string_view bytes, MeshFaults& faults) {
   const Header header = PcdHeaderReader(bytes, faults).read();
   const std::string_view body = bytes.substr(header.size);
   const auto cloud = [&](std::vector<Vec3> points, const char* format) {
-    return PointCloud{std::move(points), format, 0, header.hasViewpoint, 0, header.statedUnits};
+    return PointCloud{.points = std::move(points),
+                      .format = format,
+                      .hasViewpoint = header.hasViewpoint,
+                      .statedUnits = header.statedUnits};
   };
   if (header.data == "ascii") return cloud(readAscii(body, header, faults), "PCD (ASCII)");
   if (header.data == "binary") return cloud(readBinary(body, header, faults), "PCD (binary)");

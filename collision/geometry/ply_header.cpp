@@ -72,6 +72,8 @@ class HeaderReader {
   [[noreturn]] void fail(std::string text) { faults_.fail(cursor_.line(), std::move(text)); }
 
   void readFormat() {
+    if (hasFormat_) fail("a second format; keep one of the two");
+    hasFormat_ = true;
     const std::string_view word = cursor_.wordInLine();
     if (word == "ascii") {
       header_.encoding = PlyEncoding::Ascii;
@@ -194,6 +196,7 @@ class HeaderReader {
   bool isMesh_;
   MeshFaults& faults_;
   PlyHeader header_;
+  bool hasFormat_ = false;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/cut_polygons.h"
 #include "collision/geometry/mesh_readers.h"
 #include "collision/geometry/ply_header.h"
@@ -302,6 +303,7 @@ ReadMesh readPlyElements(std::string_view bytes, const PlyHeader& header, bool i
 }  // namespace
 
 ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
+  bytes = withoutByteOrderMark(bytes);
   const PlyHeader header = readPlyHeader(bytes, true, faults);
   ReadMesh read = readPlyElements(bytes, header, true, faults);
   for (std::string& note : notesOnLists(header)) read.notes.push_back(std::move(note));
@@ -312,7 +314,8 @@ ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults) {
   const PlyHeader header = readPlyHeader(bytes, false, faults);
   ReadMesh read = readPlyElements(bytes, header, false, faults);
-  return {std::move(read.mesh.vertices), std::move(read.format), 0, false, 0, header.statedUnits};
+  return {
+      std::move(read.mesh.vertices), std::move(read.format), 0, false, 0, 0, header.statedUnits};
 }
 
 }  // namespace corridor

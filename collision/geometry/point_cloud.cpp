@@ -6,6 +6,7 @@
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/file_frame.h"
 #include "collision/geometry/point_readers.h"
 
@@ -45,9 +46,8 @@ PointCloud readPointCloud(const std::filesystem::path& file, const MeshFileOptio
                        (file.extension().empty() ? std::string("a name without an extension")
                                                  : inQuotes(file.extension().string())));
   const std::string bytes = readFile(file, "a point cloud");
-  std::string_view content = bytes;
-  if (content.starts_with("\xEF\xBB\xBF"))
-    content.remove_prefix(3);  // the byte-order mark of UTF-8
+  requireOwnFormat(bytes, file, "a point cloud");
+  const std::string_view content = withoutByteOrderMark(bytes);
   const double unit = options.metresPerUnit.value_or(1);
   PointCloud cloud = readerOf(content, extension, unit)(content, faults);
   faults.throwIfAny();

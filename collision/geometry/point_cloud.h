@@ -25,6 +25,8 @@ struct PointCloud {
   /// The line of the first comment before the points of a text file that may say what the columns
   /// mean (it has letters) and does not name x, y, z in this order; 0: none. It is not read.
   int comment = 0;
+  /// The number of columns after the third of a text file without a header. They are not read.
+  int unnamedColumns = 0;
   /// The units that comments of a PLY or PCD file state. They are not applied.
   std::vector<StatedUnit> statedUnits = {};
 };

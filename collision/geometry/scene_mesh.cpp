@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kMostDepth = 500;
 constexpr std::uint64_t kMostVisits = 1'000'000, kMostChildren = 2'000'000;
-constexpr std::size_t kMostNotes = 100;
 /// Above the loss of a product that is too small for a double, also where the processor flushes
 /// such products to 0.
 constexpr double kLeastNormal = std::numeric_limits<double>::min();
@@ -96,11 +95,6 @@ void SceneMesh::visit(int depth, std::size_t children) {
                         " children; save the mesh as one");
 }
 
-void addNote(std::vector<std::string>& notes, const std::string& text) {
-  if (notes.size() > kMostNotes || std::ranges::count(notes, text) > 0) return;
-  notes.push_back(notes.size() < kMostNotes ? text : "more is not read than these notes say");
-}
-
 void SceneMesh::add(const ScenePart& part, const NodePath& path) {
   placesMesh_ = true;
   TriangleMesh& mesh = read_.mesh;
@@ -109,6 +103,7 @@ void SceneMesh::add(const ScenePart& part, const NodePath& path) {
   faults_.requireFew(mesh, 0);
   const std::uint32_t* corner = part.corners.data();
   Vec3 lower = Vec3::Constant(HUGE_VAL), upper = -lower;
+  bool isPoint = true;  // in the part's own frame
   double farthest = 0;
   const bool mirrored = path.isMirrored();  // then the other order keeps the outside outside
   for (const ScenePart::Face& face : part.faces) {
@@ -122,6 +117,7 @@ void SceneMesh::add(const ScenePart& part, const NodePath& path) {
       const Vec3& vertex = mesh.vertices[first + at(k)];
       lower = lower.cwiseMin(vertex), upper = upper.cwiseMax(vertex);
       farthest = std::max(farthest, part.vertices[at(k)].stableNorm());
+      isPoint &= part.vertices[at(k)] == part.vertices[part.corners.front()];
       if (k >= 2) mesh.triangles.push_back({first + at(0), first + at(k - 1), first + at(k)});
     }
     faults_.requireFew(mesh, face.line);
@@ -134,10 +130,13 @@ void SceneMesh::add(const ScenePart& part, const NodePath& path) {
   if (error == HUGE_VAL)
     faults_.fail(
         0, "the transforms of its nodes shrink a mesh to nothing, or stretch it beyond 1e250");
+  if (isPoint)
+    return note("a mesh whose vertices are one point may be " + withDigits(error, 2) +
+                " units off, by the rounding of the transforms of its nodes");
   if (extent == 0)
     faults_.fail(part.faces.front().line,
-                 "all vertices of a mesh are one point under the transforms of its nodes; correct "
-                 "them, or remove the mesh");
+                 "the transforms of its nodes make a mesh a single point; correct them, or remove "
+                 "the mesh");
   if (error / extent > share_) error_ = error, share_ = error / extent;
 }
 

@@ -57,9 +57,6 @@ bool isRoundedToZero(std::string_view text, double number);
 /// Returns what is wrong with a number of a scene, or "".
 std::string wrongMagnitude(double number);
 
-/// Adds a note, if it is new. After a hundred, one note says that there are more.
-void addNote(std::vector<std::string>& notes, const std::string& text);
-
 /// Collects the meshes of a scene of nodes, each under the map of its node.
 class SceneMesh {
  public:

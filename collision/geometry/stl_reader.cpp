@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/mesh_readers.h"
 #include "collision/geometry/vertex_welder.h"
 
@@ -166,6 +167,9 @@ class AsciiStl {
 }  // namespace
 
 ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
+  if (const std::string_view text = withoutByteOrderMark(bytes);
+      sameWord(text.substr(0, 5), "solid"))
+    bytes = text;
   // The size of the file is tested first, because many binary files also begin with "solid".
   const bool hasHeader = bytes.size() >= headerSize;
   const std::uint64_t promised =

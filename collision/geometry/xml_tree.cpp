@@ -72,6 +72,9 @@ const Element& parse(tinyxml2::XMLDocument& document, std::string_view text, con
                 "is no complete XML: an attribute is damaged, or there twice");
   if (error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT)
     faults.fail(document.ErrorLineNum(), "is no complete XML: an element is not closed");
+  if (error == tinyxml2::XML_ERROR_PARSING_DECLARATION)
+    faults.fail(document.ErrorLineNum(),
+                "has a processing instruction (<?…?>) within an element; remove it");
   if (error != tinyxml2::XML_SUCCESS)
     faults.fail(document.ErrorLineNum(),
                 "is no complete XML; it may be cut off, so save the mesh again");
@@ -118,17 +121,22 @@ void requireNamespace(const Element& element, MeshFaults& faults) {
                                          inQuotes(*own) + ", which is not read; remove it");
 }
 
-void check(const Element& element, std::initializer_list<std::string_view> children,
-           std::initializer_list<std::string_view> attributes, MeshFaults& faults,
-           std::vector<std::string>& notes, bool (*isOther)(std::string_view)) {
-  for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling()) {
-    if (node->ToUnknown())
-      faults.add(node->GetLineNum(), "<!" + printable(node->Value()) + "> is not read; remove it");
+void requireNoText(const Element& element, MeshFaults& faults) {
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling())
     if (const auto* const text = node->ToText();
-        text && children.size() > 0 &&
+        text &&
         std::string_view(text->Value()).find_first_not_of(" \t\r\n") != std::string_view::npos)
       faults.add(node->GetLineNum(),
                  tag(element) + " has the text " + inQuotes(text->Value()) + "; remove it");
+}
+
+void check(const Element& element, std::initializer_list<std::string_view> children,
+           std::initializer_list<std::string_view> attributes, MeshFaults& faults,
+           std::vector<std::string>& notes, bool (*isOther)(std::string_view)) {
+  if (children.size() > 0) requireNoText(element, faults);
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling()) {
+    if (node->ToUnknown())
+      faults.add(node->GetLineNum(), "<!" + printable(node->Value()) + "> is not read; remove it");
     const Element* const child = node->ToElement();
     if (!child) continue;
     const std::string_view name = child->Name();

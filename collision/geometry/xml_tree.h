@@ -30,6 +30,8 @@ std::string_view required(const Element& element, const char* name, MeshFaults& 
 
 /// Adds a fault if an element says that it is of another namespace than the root.
 void requireNamespace(const Element& element, MeshFaults& faults);
+/// Adds a fault for a text in an element that has only elements.
+void requireNoText(const Element& element, MeshFaults& faults);
 /// Checks an element's children and attributes. Attributes that are not known are added to `notes`;
 /// names in another case, children of other names or namespaces, and texts are faults. In Collada,
 /// `<extra>`, which is for the program that wrote it, is skipped. Without `children`, a text is

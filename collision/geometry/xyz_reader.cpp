@@ -72,6 +72,22 @@ bool mixesCommasAndBlanks(std::string_view line) {
   return alone && tight;
 }
 
+/// Returns whether semicolons separate groups of numbers, as in "1 2 3; 4 5 6".
+bool hasGroups(std::string_view line) {
+  for (std::size_t begin = 0; begin < line.size() && line.find(';') != line.npos;) {
+    const std::size_t end = std::min(line.find(';', begin), line.size());
+    std::string_view group = line.substr(begin, end - begin);
+    double number = 0;
+    int numbers = 0;
+    for (std::string_view word = nextWord(group, ';');
+         !word.empty() && !parseCoordinate(word, number, true); word = nextWord(group, ';'))
+      ++numbers;
+    if (numbers > 1) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
 /// Returns the metres of a unit's name in any brackets, such as "mm" or "[mm]", or 0. Here "in" is
 /// a unit.
 double metresOfWord(std::string_view word) {
@@ -137,6 +153,8 @@ class XyzReader {
       return readHeader(line, mark, first);
     if (third.empty())
       return fault("a point has 3 coordinates, found " + std::to_string(second.empty() ? 1 : 2));
+    if (mark == ';' && hasGroups(line))
+      return fault("semicolons separate groups of numbers; write a line for each point");
     if (mark == ',' && mixesCommasAndBlanks(line))
       return fault(
           "has commas and blanks between numbers; use one of them, and write decimals with a "
@@ -148,7 +166,9 @@ class XyzReader {
         fault(*why);
         break;
       }
-    checkColumns(line, 3 + readRest(row.rest, mark));
+    const int more = readRest(row.rest, mark);
+    checkColumns(line, 3 + more);
+    if (!hasHeader_) cloud_.unnamedColumns = std::max(cloud_.unnamedColumns, more);
     limitPoints(cloud_.points.size(), cursor_.line(), faults_);
   }
 
@@ -168,6 +188,7 @@ class XyzReader {
   }
 
   void readHeader(std::string_view line, char mark, std::string_view first) {
+    hasHeader_ = true;
     if (beginsWithNames(line, mark)) return checkNames(columnNamesIn(line));
     fault("is a header that begins with " + inQuotes(first) +
           ", not with x y z; put the columns x, y and z first, and name them in this way");
@@ -252,7 +273,7 @@ class XyzReader {
   MeshFaults& faults_;
   PointCloud cloud_{{}, "text"};
   int columns_ = 0, firstLine_ = 0;  // of the first point
-  bool firstHasTwoTabs_ = false;
+  bool firstHasTwoTabs_ = false, hasHeader_ = false;
   std::int64_t promised_ = -1;  // number of points, with which .pts files begin; -1: not stated
 };
 

@@ -15,9 +15,9 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/app/standard_streams.h"
+#include "planner/checker/enclosed_bodies.h"
 #include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/still_pairs.h"
 #include "planner/problem/bounds_of_ends.h"
 #include "planner/problem/state_yaml.h"
 #include "planner/solve/solve.h"
@@ -105,15 +105,14 @@ void warnOfLimits(const std::string& file, std::size_t count, const char* what) 
 void printReport(const CheckArguments& a, const Problem& problem, const LeftOut& leftOut,
                  bool valid, const char* key, const ordered_json& rows) {
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-2"},
-                              {"problem", a.problem},
-                              {"numbers", problem.model.space.numberNames()},
-                              {"valid", valid},
-                              {"left_out", leftOutJson(problem.model, leftOut)},
-                              {"not_tested", reasonGroups(leftOut)},
-                              {"notes", textsOf(problem.source.notes)},
-                              {key, rows}}
-                     .dump(2)
+    std::cout << jsonText(ordered_json{{"format", "corridor-check-report-2"},
+                                       {"problem", a.problem},
+                                       {"numbers", problem.model.space.numberNames()},
+                                       {"valid", valid},
+                                       {"left_out", leftOutJson(problem.model, leftOut)},
+                                       {"not_tested", reasonGroups(leftOut)},
+                                       {"notes", textsOf(problem.source.notes)},
+                                       {key, rows}})
               << '\n';
   else if (!leftOut.except.empty())
     std::cerr << "note: the " << key << " are tested" << exceptText(problem.model, leftOut) << '\n';
@@ -130,7 +129,7 @@ int checkStates(Problem problem, const CheckArguments& a) {
   const std::vector<StateRow> rows = readStateRows(*a.states, problem.model.space, fileNotes);
   noteFile(fileNotes, a, problem);
   const Checker checker(problem);
-  addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
+  addFirst(notesOnStart(checker, startOf(problem)), problem.source.notes);
   bool all = true;
   std::size_t noted = 0;
   ordered_json states = ordered_json::array();
@@ -203,7 +202,7 @@ int checkEdges(Problem problem, const CheckArguments& a) {
   const std::vector<EdgeRow> rows = readEdgeRows(*a.edges, problem.model.space, fileNotes);
   noteFile(fileNotes, a, problem);
   const Checker checker(problem);
-  addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
+  addFirst(notesOnStart(checker, startOf(problem)), problem.source.notes);
   bool all = true;
   std::size_t noted = 0;
   ordered_json edges = ordered_json::array();
@@ -239,7 +238,7 @@ int checkEdges(Problem problem, const CheckArguments& a) {
 int checkEnds(Problem problem, const CheckArguments& a) {
   checkSettings(problem);
   const Checker checker(problem);
-  addFirst(notesOnStillPairs(checker, startOf(problem)), problem.source.notes);
+  addFirst(notesOnStart(checker, startOf(problem)), problem.source.notes);
   const LeftOut leftOut = leftOutOf(checker);
   const ResultPrinter out(a.json);
   ordered_json ends;
@@ -258,14 +257,13 @@ int checkEnds(Problem problem, const CheckArguments& a) {
   out.line("not tested", notTestedText(leftOut));
   for (const std::string& note : condensed(textsOf(problem.source.notes))) out.line("note", note);
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-check-report-2"},
-                              {"problem", a.problem},
-                              {"valid", all},
-                              {"ends", ends},
-                              {"left_out", leftOutJson(problem.model, leftOut)},
-                              {"not_tested", reasonGroups(leftOut)},
-                              {"notes", textsOf(problem.source.notes)}}
-                     .dump(2)
+    std::cout << jsonText(ordered_json{{"format", "corridor-check-report-2"},
+                                       {"problem", a.problem},
+                                       {"valid", all},
+                                       {"ends", ends},
+                                       {"left_out", leftOutJson(problem.model, leftOut)},
+                                       {"not_tested", reasonGroups(leftOut)},
+                                       {"notes", textsOf(problem.source.notes)}})
               << '\n';
   return all ? kDone : kNegativeResult;
 }

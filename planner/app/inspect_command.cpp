@@ -25,6 +25,7 @@
 #include "planner/app/read_mesh.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"
+#include "planner/robot/urdf_file.h"
 
 namespace corridor::app {
 
@@ -90,7 +91,7 @@ int inspectMeshFile(const InspectArguments& a) {
       ordered_json& all = j["mesh"]["self_intersections"] = ordered_json::array();
       for (const PrimitivePair& pair : selfIntersectionsOf(file)) all.push_back({pair.a, pair.b});
     }
-    std::cout << j.dump(2) << '\n';
+    std::cout << jsonText(j) << '\n';
     return kDone;
   }
   const MeshHealth health = inspectMesh(file.mesh);
@@ -152,7 +153,8 @@ std::string robotInFolder(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "robot.yaml", none)) return folder / "robot.yaml";
   std::vector<std::string> robots;
   for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    if (entry.path().extension() == ".urdf") robots.push_back(entry.path().string());
+    if (lowered(entry.path().extension().string()) == ".urdf")
+      robots.push_back(entry.path().string());
   std::sort(robots.begin(), robots.end());
   if (robots.size() == 1) return robots[0];
   throw InputError(Fault{folder.string(), 0,
@@ -164,14 +166,13 @@ std::string robotInFolder(const std::filesystem::path& folder) {
 
 /// @param inFolder true if `a.file` is the robot that `robotInFolder` found.
 int inspectFile(const InspectArguments& a, bool inFolder) {
-  const std::string extension = std::filesystem::path(a.file).extension().string();
-  if (lowered(extension) == ".srdf" && whyNotOrdinaryFile(a.file).empty())
+  const std::string extension = lowered(std::filesystem::path(a.file).extension().string());
+  if (extension == ".srdf" && whyNotOrdinaryFile(a.file).empty())
     throw InputError(Fault{a.file, 0,
                            "is an SRDF, which only adds to a URDF; name the URDF, or a robot.yaml "
                            "with the keys urdf and srdf"});
   const bool yaml = extension == ".yaml" || extension == ".yml";
-  const bool robot =
-      inFolder || extension == ".urdf" || extension == ".xacro" || (yaml && isRobotFile(a.file));
+  const bool robot = inFolder || (yaml ? isRobotFile(a.file) : isUrdf(a.file));
   const bool problem = yaml || std::filesystem::is_directory(a.file) || extension == ".cfg" ||
                        a.file.find(".json") != a.file.npos;
   if (a.poses && !a.against)

@@ -8,9 +8,9 @@
 #include "planner/app/inspect.h"
 #include "planner/app/output.h"
 #include "planner/checker/edge_costs.h"
+#include "planner/checker/enclosed_bodies.h"
 #include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/still_pairs.h"
 #include "planner/model/reach.h"
 #include "planner/problem/digest.h"
 #include "planner/solve/state_rows.h"
@@ -40,14 +40,14 @@ class ProblemReport {
     reportBodies();
     reportPairs();
     std::vector<Note> all = problem_.source.notes;
-    addFirst(notesOnStillPairs(checker_, startOf(problem_)), all);
+    addFirst(notesOnStart(checker_, startOf(problem_)), all);
     const std::vector<std::string> notes = textsOf(all);
     json_["notes"] = notes;
     for (const std::string& note : condensed(notes)) out_.line("note", note);
     const bool free = reportEnds();
     reportTrees();
     reportCosts();
-    if (a_.json) std::cout << json_.dump(2) << '\n';
+    if (a_.json) std::cout << jsonText(json_) << '\n';
     return free ? kDone : kNegativeResult;
   }
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string jointLine(const RobotModel& model, const JointModel& joint) {
+std::string jointLine(const RobotDescription& model, const JointModel& joint) {
   std::string text = "\"" + joint.name + "\": " + nameOf(joint.type) + ", " +
                      model.links[joint.parent].name + " to " + model.links[joint.child].name;
   if (!joint.mimic && (std::isfinite(joint.lower) || std::isfinite(joint.upper)))
@@ -28,7 +28,7 @@ std::string jointLine(const RobotModel& model, const JointModel& joint) {
   return text;
 }
 
-ordered_json jointJson(const RobotModel& model, const JointModel& joint) {
+ordered_json jointJson(const RobotDescription& model, const JointModel& joint) {
   ordered_json j = {{"name", joint.name},
                     {"type", nameOf(joint.type)},
                     {"parent", model.links[joint.parent].name},
@@ -62,7 +62,7 @@ double radiusOf(const LinkModel& link) {
 /// Returns the largest distance by which a joint can translate its child link, metres; infinite
 /// without limits. For a joint that mimics another, the distance follows from the range of that
 /// other joint, since a mimic's own limits need not restrict it.
-double slideOf(const RobotModel& model, const JointModel& joint) {
+double slideOf(const RobotDescription& model, const JointModel& joint) {
   if (joint.type == JointType::planar || joint.type == JointType::floating)
     return std::numeric_limits<double>::infinity();
   if (joint.type != JointType::prismatic) return 0;
@@ -78,7 +78,7 @@ double slideOf(const RobotModel& model, const JointModel& joint) {
 /// distance with the chain stretched out and all prismatic joints at their farther limits. The
 /// bound is infinite for links behind a planar or floating joint, or behind a prismatic joint
 /// without limits.
-std::vector<double> reachOfLinks(const RobotModel& model) {
+std::vector<double> reachOfLinks(const RobotDescription& model) {
   std::vector<double> origin(model.links.size(), 0), reach;
   for (const JointModel& joint : model.joints)  // parents before children
     origin[joint.child] = origin[joint.parent] + joint.X_PJ.p.norm() + slideOf(model, joint);
@@ -145,7 +145,7 @@ bool reportUnusable(const char* kind, const std::string& name, const std::string
 
 int inspectRobot(const InspectArguments& a) {
   const RobotSetup setup = readRobotAlone(a.file, RobotUse::describe);
-  const RobotModel& model = setup.robot.description;
+  const RobotDescription& model = setup.robot.description;
   std::vector<Note> found = notesOf(setup);
   addAll(notesOnMeshes(model), found);
   const std::vector<std::string> notes = textsOf(found);
@@ -206,7 +206,7 @@ int inspectRobot(const InspectArguments& a) {
     out.line("state", quotedWord(name) + ": {" + text + "}");
   }
   for (const std::string& note : condensed(notes)) out.line("note", note);
-  if (a.json) std::cout << j.dump(2) << '\n';
+  if (a.json) std::cout << jsonText(j) << '\n';
   return kDone;
 }
 

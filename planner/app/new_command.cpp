@@ -46,23 +46,6 @@ std::string pathFrom(const NewFileArguments& file, const fs::path& path) {
   return relative.empty() ? target.string() : relative.string();
 }
 
-std::string yamlWord(const std::string& text) {
-  const auto isPlain = [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '.' || c == '/' || c == '-';
-  };
-  static const std::vector<std::string> reserved = {"true", "false", "yes", "no", "on",
-                                                    "off",  "null",  "y",   "n"};
-  std::string lower = text;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const unsigned char first = text.empty() ? '\0' : static_cast<unsigned char>(text[0]);
-  if ((std::isalpha(first) || first == '_' || (first == '.' && text.starts_with("../"))) &&
-      std::all_of(text.begin(), text.end(), isPlain) &&
-      std::find(reserved.begin(), reserved.end(), lower) == reserved.end())
-    return text;
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string yamlList(const std::vector<std::string>& words) {
   std::string text = "[";
   for (const std::string& word : words) text += (text.size() > 1 ? ", " : "") + yamlWord(word);

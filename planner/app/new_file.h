@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/problem/text_words.h"
+
 /// The parts of `corridor new`, one per kind of file, and what they share.
 namespace corridor::app {
 
@@ -52,8 +54,6 @@ void writeNewFile(const NewFileArguments& file, const std::string& text);
 /// folder.
 std::string pathFrom(const NewFileArguments& file, const std::filesystem::path& path);
 
-/// Returns a YAML scalar that the reader takes as this text: plain if possible, else in quotes.
-std::string yamlWord(const std::string& text);
 /// Returns the words as a YAML list: "[a, b]".
 std::string yamlList(const std::vector<std::string>& words);
 /// Returns the text as a comment: each line has `indent` blanks, "# ", and at most 100 characters

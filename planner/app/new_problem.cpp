@@ -13,6 +13,7 @@
 #include "planner/checker/pair_survey.h"
 #include "planner/model/model_builder.h"
 #include "planner/problem/robot_file.h"
+#include "planner/problem/state_text.h"
 #include "planner/robot/joint_types.h"
 
 namespace corridor::app {
@@ -42,7 +43,7 @@ struct Alone {
 /// Returns the largest absolute value of a coordinate of the points of the robot's shapes, rounded
 /// up to two digits; 1 if there are no shapes. The coordinates of each shape are those in the frame
 /// of its link. It is used only as a scale for the lengths in the new file.
-double sizeOf(const RobotModel& description) {
+double sizeOf(const RobotDescription& description) {
   double size = 0;
   for (const LinkModel& link : description.links)
     for (const PlacedShape& shape : link.shapes)
@@ -73,30 +74,6 @@ std::string pointText(const Vec3& p, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     text += (i ? ", " : "") + shortest(p[static_cast<Eigen::Index>(i)]);
   return text + "]";
-}
-
-/// Returns the pose of a planar or floating joint as `at: …`, and `yaw: …` for a planar joint. The
-/// rotation of a floating joint is the identity in all states here, so it is left out.
-std::string poseText(const Configuration& q, std::size_t first, bool planar) {
-  const auto i = static_cast<Eigen::Index>(first);
-  if (planar) return "at: " + pointText({q[i], q[i + 1], 0}, 2) + ", yaw: " + shortest(q[i + 2]);
-  return "at: " + pointText(q.segment<3>(i), 3);
-}
-
-/// Returns a configuration as a problem file writes it.
-std::string yamlStateOf(const Model& model, const Configuration& q) {
-  const ModelRobot& robot = model.robots.front();
-  std::string text;
-  for (const PlannedJoint& planned : robot.plannedJoints) {
-    const std::size_t first = model.space.coordinates()[planned.coordinate].first;
-    const bool pose = isPoseJoint(planned.type);
-    const std::string value = pose ? poseText(q, first, planned.type == JointType::planar)
-                                   : shortest(q[static_cast<Eigen::Index>(first)]);
-    if (robot.isRigid()) return "{" + value + "}";
-    text += (text.empty() ? "" : ", ") + yamlWord(planned.name) + ": " +
-            (pose ? "{" + value + "}" : value);
-  }
-  return "{" + text + "}";
 }
 
 /// Returns the configuration of a named state, or nullopt if it does not name all joints that are
@@ -186,7 +163,7 @@ class StateFinder {
       if (!q || !isValidAndNew(*q)) continue;
       const bool byName = holdsAgree(robot, state);
       found_.push_back(
-          {*q, byName ? yamlWord(name) : yamlStateOf(model_, *q),
+          {*q, byName ? yamlWord(name) : stateText(model_, *q),
            byName ? "a named state of the robot"
                   : "the named state " + yamlWord(name) + ", without the joints that are held"});
     }
@@ -214,7 +191,7 @@ class StateFinder {
     // Three decimals are easy to read and to edit. The state is tested as it is written.
     q = (q * 1000).array().round() / 1000;
     if (!isValidAndNew(q)) return;
-    FoundState state{q, yamlStateOf(model_, q), "a random valid state"};
+    FoundState state{q, stateText(model_, q), "a random valid state"};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
     else if (!spare_)
@@ -223,7 +200,7 @@ class StateFinder {
 
   void add(const Configuration& q, const std::string& origin) {
     if (!isValidAndNew(q)) return;
-    FoundState state{q, yamlStateOf(model_, q), origin};
+    FoundState state{q, stateText(model_, q), origin};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))
       found_.push_back(std::move(state));
   }
@@ -276,7 +253,7 @@ std::vector<FoundState> rigidStates(const Alone& alone, const Checker& checker) 
     Configuration q = Configuration::Zero(static_cast<Eigen::Index>(alone.model.space.size()));
     q[0] = x;
     if (alone.model.robots.front().description.mount == JointType::floating) q[6] = 1;
-    if (checker.isProvedFree(q)) found.push_back({q, yamlStateOf(alone.model, q), "an example"});
+    if (checker.isProvedFree(q)) found.push_back({q, stateText(alone.model, q), "an example"});
   }
   return found;
 }
@@ -329,7 +306,7 @@ int newProblem(const NewProblemArguments& a) {
                           std::to_string(kRandomStates) + " random states") +
                ". corridor check names the links that touch.") +
            ((i > 0 && found.empty()) || why.empty() ? "" : comment("Why: " + why)) + key + ": " +
-           yamlStateOf(alone.model, q) + "\n";
+           stateText(alone.model, q) + "\n";
   };
   text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;
   writeNewFile(a.file, text);

@@ -31,7 +31,7 @@ constexpr std::size_t kManyJoints = 14;
 
 /// A URDF, and the SRDF if one is given.
 struct RobotFiles {
-  RobotModel model;                  ///< without the SRDF's pairs
+  RobotDescription model;            ///< without the SRDF's pairs
   std::vector<AllowedPair> allowed;  ///< the SRDF's pairs
 };
 
@@ -73,7 +73,7 @@ RobotFiles readFiles(const NewRobotArguments& a) {
 }
 
 /// Returns the model in which every joint that can move is planned for.
-Model modelOf(RobotModel description, const std::string& urdf) {
+Model modelOf(RobotDescription description, const std::string& urdf) {
   ModelRobot robot;
   robot.description = std::move(description);
   const std::vector<std::size_t> moving = allMoving(robot);
@@ -87,7 +87,7 @@ Model modelOf(RobotModel description, const std::string& urdf) {
   return builder.addRobot(std::move(robot)).build();
 }
 
-std::string jointText(const RobotModel& model, const JointModel& joint) {
+std::string jointText(const RobotDescription& model, const JointModel& joint) {
   std::string text = yamlWord(joint.name) + ": " + nameOf(joint.type);
   if (joint.mimic) return text + ", follows " + yamlWord(model.joints[joint.mimic->joint].name);
   if (std::isfinite(joint.lower) || std::isfinite(joint.upper))
@@ -98,7 +98,7 @@ std::string jointText(const RobotModel& model, const JointModel& joint) {
 
 /// Returns the joints, the states, and the groups that can be used and have a moving joint, all as
 /// comments. If there is only one such group, it is written as a key, not as a comment.
-std::string jointsText(const RobotModel& model, bool hasSrdf) {
+std::string jointsText(const RobotDescription& model, bool hasSrdf) {
   std::string text = "\n" + comment("Joints:");
   for (const JointModel& joint : model.joints)
     if (joint.type != JointType::fixed) text += comment("- " + jointText(model, joint));
@@ -157,7 +157,7 @@ std::string jointsText(const RobotModel& model, bool hasSrdf) {
 
 /// Returns the links without shapes, the reader's notes, and the keys that change how the URDF is
 /// read.
-std::string readingText(const NewRobotArguments& a, const RobotModel& model,
+std::string readingText(const NewRobotArguments& a, const RobotDescription& model,
                         const std::vector<std::string>& noShapes) {
   std::string text = "\n";
   if (!a.packages.empty()) {
@@ -190,7 +190,7 @@ std::string readingText(const NewRobotArguments& a, const RobotModel& model,
 int newRobot(const NewRobotArguments& a) {
   requireNewFile(a.file);
   RobotFiles files = readFiles(a);
-  RobotModel description = files.model;  // keeps what the text needs
+  RobotDescription description = files.model;  // keeps what the text needs
   std::vector<std::string> noShapes;
   addAll(notesOnMeshes(description), description.notes);
   for (LinkModel& link : description.links) {

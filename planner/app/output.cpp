@@ -32,6 +32,10 @@ void ResultPrinter::line(std::string_view key, const std::string& value, Tone to
             << (*on ? "\033[0m" : "") << '\n';
 }
 
+std::string jsonText(const nlohmann::ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void ResultPrinter::blank() const {
   if (!quiet_) std::cout << '\n';
 }

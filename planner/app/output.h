@@ -32,6 +32,10 @@ class ResultPrinter {
   bool quiet_;
 };
 
+/// Returns the text of a JSON value, which is always valid: names of files may have bytes that are
+/// not UTF-8, for which it has U+FFFD. @param indent  -1: one line
+std::string jsonText(const nlohmann::ordered_json& json, int indent = 2);
+
 /// Inserts `notes` before all notes in `to`.
 inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
   to.insert(to.begin(), notes.begin(), notes.end());

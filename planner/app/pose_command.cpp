@@ -92,12 +92,12 @@ int poseCommand(const PoseArguments& a) {
   ordered_json joints = ordered_json::object();
   for (const auto& [j, value] : robot.held) joints[robot.description.joints[j].name] = value;
   if (a.json)
-    std::cout << ordered_json{{"format", "corridor-pose-1"},
-                              {"file", a.file},
-                              {"root", robot.description.links[robot.description.root].name},
-                              {"joints", joints},
-                              {"links", links}}
-                     .dump(2)
+    std::cout << jsonText(
+                     ordered_json{{"format", "corridor-pose-1"},
+                                  {"file", a.file},
+                                  {"root", robot.description.links[robot.description.root].name},
+                                  {"joints", joints},
+                                  {"links", links}})
               << '\n';
   return kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/floating_point.h"
+#include "collision/core/spelling.h"
 #include "planner/app/commands.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
@@ -60,10 +62,17 @@ int runCommands(int argc, char** argv,
     letRank0Report();
     printFaults(error);
     return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {  // such as a folder that was deleted
+    std::cerr << "corridor: " << withoutControls(error.what()) << '\n';
+    return kBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles, or too "
-                 "large a parameter\n";
-    return kInternal;
+                 "large a parameter";
+    for (int i = 2; i < argc; ++i)  // the inputs
+      if (argv[i][0] != '-')
+        std::cerr << (i == 2 ? "; called with " : " ") << withoutControls(argv[i]);
+    std::cerr << '\n';
+    return kBadInput;
   } catch (const std::exception& error) {
     std::cerr << "corridor: internal error: " << error.what() << '\n';
     return kInternal;

@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,9 +37,9 @@ int solveSingle(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
   const Solved solved = solveOne(file, a, interrupted);
   if (a.jsonLines && !a.quiet)
-    std::cout << jsonOf(solved, file).dump() << '\n';
+    std::cout << jsonText(jsonOf(solved, file), -1) << '\n';
   else if (a.json && !a.quiet)
-    std::cout << reportJson(ordered_json::array({jsonOf(solved, file)})).dump(2) << '\n';
+    std::cout << jsonText(reportJson(ordered_json::array({jsonOf(solved, file)}))) << '\n';
   else if (!a.json && !a.jsonLines)
     print(solved, file, a);
   if (interrupted) return interruptedStatus();
@@ -74,10 +77,19 @@ void requireTrajectory(const SolveArguments& a, bool several) {
 /// @throws InputError if an output file for a single problem can't be written, is of the wrong
 /// kind, or is named twice.
 void requireFiles(const SolveArguments& a) {
-  if (a.output && lowered(std::filesystem::path(*a.output).extension().string()) == ".path")
-    throw InputError(Fault{"--output", 0,
-                           "solutions are written as YAML, and .path is a format of OMPL: a name "
-                           "that ends in .yaml is needed"});
+  const auto requireExtension = [](const char* option, const std::optional<std::string>& file,
+                                   std::initializer_list<std::string_view> known,
+                                   const std::string& advice) {
+    const std::string extension =
+        file ? lowered(std::filesystem::path(*file).extension().string()) : "";
+    if (!extension.empty() && std::find(known.begin(), known.end(), extension) == known.end())
+      throw InputError(Fault{option, 0, *file + ": " + advice});
+  };
+  requireExtension("--output", a.output, {".yaml", ".yml"},
+                   "solutions are written as YAML, so a name that ends in .yaml is needed; "
+                   "--trajectory writes CSV");
+  requireExtension("--picture", a.picture, {".svg", ".png"},
+                   "pictures are SVG or PNG, so a name that ends in .svg or .png is needed");
   if (a.output != "-") requireWritable(a.output, "--output");
   if (a.picture != "-") requireWritable(a.picture, "--picture");
   if ((a.json || a.jsonLines) && printsFile(a))

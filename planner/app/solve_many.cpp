@@ -109,7 +109,7 @@ ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a
       report = {{"problem", problem.file}, {"result", kBadInputResult}, {"why", error.what()}};
     }
     if (!isWriting) send("writes");
-    send(report.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+    send(jsonText(report, -1));
   };
 }
 
@@ -236,7 +236,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
     ++done;
     status = std::max(status, statusOf(report));
     if (show) std::fputs("\r\033[K", stderr);
-    if (a.jsonLines && !a.quiet) std::cout << report.dump() << std::endl;
+    if (a.jsonLines && !a.quiet) std::cout << jsonText(report, -1) << std::endl;
     out.line(problems[i].name, lineOf(report));
     std::cout.flush();
     if (show) std::fprintf(stderr, "\r%zu of %zu problems done\033[K", done, problems.size());
@@ -246,7 +246,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
     ordered_json list = ordered_json::array();
     for (const ordered_json& report : reports)
       if (!report.is_null()) list.push_back(report);
-    std::cout << reportJson(list).dump(2) << '\n';
+    std::cout << jsonText(reportJson(list)) << '\n';
   }
   if (!a.quiet && !a.json && !a.jsonLines) {
     out.blank();

@@ -14,9 +14,10 @@
 #include "planner/app/motion_file.h"
 #include "planner/app/options.h"
 #include "planner/app/output.h"
+#include "planner/checker/enclosed_bodies.h"
+#include "planner/checker/fixed_pairs.h"
 #include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/still_pairs.h"
 #include "planner/model/held_joints.h"
 #include "planner/problem/nothing_tested.h"
 #include "planner/solve/verify_solution.h"
@@ -240,15 +241,15 @@ int verifyCommand(const VerifyArguments& a) {
   if (a.limits && !verified.report.limits)
     throw InputError(Fault{"--limits", 0, a.solution + " has no times, so it has no speed"});
   std::optional<Checker> checker;
-  if (hasStillPairs(problem.model)) {
+  if (hasFixedPairs(problem.model)) {
     checker.emplace(problem);
-    addFirst(notesOnStillPairs(*checker, startOf(problem)), problem.source.notes);
+    addFirst(notesOnStart(*checker, startOf(problem)), problem.source.notes);
   }
   const LeftOut leftOut = checker ? leftOutOf(*checker) : leftOutOf(problem);
   if (!a.json) {
     print(verified.report, problem, leftOut, a);
   } else if (!a.quiet) {
-    std::cout << jsonOf(verified, problem, leftOut, a).dump(2) << '\n';
+    std::cout << jsonText(jsonOf(verified, problem, leftOut, a)) << '\n';
   }
   const std::optional<LimitRatios>& limits = verified.report.limits;
   const bool holds = verified.report.verdict == PathVerdict::proved &&

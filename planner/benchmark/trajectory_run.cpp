@@ -67,10 +67,10 @@ std::optional<TrajectoryMaker> trajectoryMakerNamed(const std::string& name) {
 
 MadeTrajectory makeBy(TrajectoryMaker maker, const Problem& problem, const Checker& checker,
                       const Path& path) {
-  if (maker == TrajectoryMaker::blends) return makeTrajectory(problem, checker, path);
   std::vector<CurvePiece> lines;
   if (path.size() > 1) lines = curveOfPath(problem.model.space, path).pieces;
   if (statesOfLines(lines).size() < 2) return noTrajectory("the path does not move");
+  if (maker == TrajectoryMaker::blends) return makeTrajectory(problem, checker, path);
   if (maker == TrajectoryMaker::stop) return trajectoryAlong(problem, checker, lines);
   return makeSpline(maker == TrajectoryMaker::inserted, problem, checker, lines);
 }

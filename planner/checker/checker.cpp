@@ -67,16 +67,23 @@ void requireConfiguration(const ConfigurationSpace& space, const Configuration& 
 
 }  // namespace
 
-Scene makeScene(const Model& model, const Required& need, const TreeParams& params) {
+Scene makeScene(const Model& model, const Required& need, const TreeParams& params,
+                const Scene* earlier) {
   requireObstaclesAtRest(model);
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
   // For each pair of a mesh and `solid`, the index in `placed` of the first body made of it.
   std::map<std::pair<const MeshFile*, bool>, std::size_t> known;
+  std::map<std::pair<const TriangleMesh*, bool>, const Body*> made;  // by `earlier`
+  if (earlier)
+    for (const Scene::Placed& body : earlier->bodies())
+      if (body.body.isMesh()) made.try_emplace({&body.body.mesh(), body.body.solid()}, &body.body);
   const auto bodyOf = [&](const PlacedShape& shape) {
     if (!shape.mesh) return Body(shape.name, shape.parts);
-    const auto [same, isNew] = known.try_emplace({shape.mesh.get(), shape.solid}, placed.size());
-    if (!isNew) return placed[same->second].body.renamed(shape.name);
+    const auto same = made.find({&shape.mesh->mesh, shape.solid});
+    if (same != made.end()) return same->second->renamed(shape.name);
+    const auto [first, isNew] = known.try_emplace({shape.mesh.get(), shape.solid}, placed.size());
+    if (!isNew) return placed[first->second].body.renamed(shape.name);
     return Body(shape.name, {shape.mesh, &shape.mesh->mesh}, shape.solid, params);
   };
   const std::vector<Transform> X_WF = staticFramePoses(model);
@@ -152,10 +159,10 @@ class Checker::Pool {
   std::atomic<Workspace*> head_{};    // the workspace that was added last; not owned
 };
 
-Checker::Checker(const Model& model, const CheckerOptions& options)
+Checker::Checker(const Model& model, const CheckerOptions& options, const Scene* earlier)
     : model_(model),
       required_(requiredBy(options, model.space)),
-      scene_(makeScene(model, required_, options.trees.params)),
+      scene_(makeScene(model, required_, options.trees.params, earlier)),
       proved_(provedBox(model, required_)),
       bodyOf_(bodiesOfShapes(model)),
       method_(options.method),
@@ -166,7 +173,7 @@ Checker::Checker(const Model& model, const CheckerOptions& options)
   options_.clearanceSlack = options_.tolerance;
   options_.margin = options.margin;
   options_.trees = options.trees.trees;
-  notFreeAtRest_ = restPairsNotFree(model, scene_, required_, options_);
+  notFreeAtRest_ = heldPairsNotFree(model, scene_, required_, options_);
   if (!notFreeAtRest_.empty()) scene_ = withPairs(model, scene_, notFreeAtRest_);
   if (!required_.padding.empty()) {
     paddings_.emplace(paddingsOf(model, required_.padding, scene_));
@@ -174,8 +181,8 @@ Checker::Checker(const Model& model, const CheckerOptions& options)
   }
 }
 
-Checker::Checker(const Problem& problem)
-    : Checker(problem.model, checkerOptions(problem.task, problem.settings.checker)) {}
+Checker::Checker(const Problem& problem, const Scene* earlier)
+    : Checker(problem.model, checkerOptions(problem.task, problem.settings.checker), earlier) {}
 
 Checker::~Checker() = default;
 

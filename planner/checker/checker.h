@@ -6,7 +6,7 @@
 
 #include "collision/motion/check_certificate.h"
 #include "collision/world/scene.h"
-#include "planner/checker/rest_pairs.h"
+#include "planner/checker/held_pairs.h"
 #include "planner/model/model.h"
 #include "planner/model/pair_proofs.h"
 #include "planner/model/settings.h"
@@ -24,9 +24,12 @@ struct Problem;
 /// are left out if their proof covers it. Queries of the scene are then only for configurations in
 /// `provedBox(model, need)`; `Checker` sees to it.
 /// @param params how the trees of meshes are built, when queries need them.
+/// @param earlier if not null: a scene with the same parameters, whose bodies are used for the same
+/// meshes, with the trees that they have.
 /// @throws std::invalid_argument if a body without a robot is on a frame that moves. Such a body
 /// would be taken to be at rest.
-Scene makeScene(const Model& model, const Required& need, const TreeParams& params = {});
+Scene makeScene(const Model& model, const Required& need, const TreeParams& params = {},
+                const Scene* earlier = nullptr);
 
 /// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
@@ -78,9 +81,11 @@ class Checker {
   /// - The method measures distances (`adaptive`, `advancement`), and the trees have another
   ///   overlap test than their volume's default.
   /// - A mesh is invalid, or a solid mesh is not watertight.
-  explicit Checker(const Model& model, const CheckerOptions& options = {});
+  /// @param earlier see `makeScene`
+  explicit Checker(const Model& model, const CheckerOptions& options = {},
+                   const Scene* earlier = nullptr);
   /// Makes the checker of a problem's model, with `checkerOptions`.
-  explicit Checker(const Problem& problem);
+  explicit Checker(const Problem& problem, const Scene* earlier = nullptr);
   ~Checker();
 
   const Model& model() const { return model_; }
@@ -104,7 +109,7 @@ class Checker {
   /// tested once, by the constructor. Returns the pairs that are not proved free, such as a held
   /// arm that touches the table. They are tested like all other pairs from then on, so no state is
   /// free.
-  const std::vector<RestPair>& notFreeAtRest() const { return notFreeAtRest_; }
+  const std::vector<HeldPair>& notFreeAtRest() const { return notFreeAtRest_; }
   /// Returns the index of the model's body to which a body of the scene (one shape) belongs.
   std::size_t bodyOf(std::size_t shape) const { return bodyOf_[shape]; }
 
@@ -200,7 +205,7 @@ class Checker {
   Scene scene_;
   std::optional<ProvedBox> proved_;  // where the pairs that are not tested are proved apart
   std::vector<std::size_t> bodyOf_;
-  std::vector<RestPair> notFreeAtRest_;  // the scene has these pairs, too
+  std::vector<HeldPair> notFreeAtRest_;  // the scene has these pairs, too
   std::optional<PairMargins> paddings_;  // for each pair of the scene; unset: no padding
   MotionOptions options_;                // refers to `paddings_`
   EdgeMethod method_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "collision/core/spelling.h"
-#include "planner/checker/still_pairs.h"
+#include "planner/checker/fixed_pairs.h"
 #include "planner/problem/problem.h"
 
 namespace corridor {
@@ -32,8 +32,8 @@ LeftOut leftOutByFilter(const Model& model, const Required& need) {
   return leftOut;
 }
 
-void addStillPairs(const Checker& checker, LeftOut& leftOut) {
-  for (const StillPair& pair : closeStillPairs(checker, zeroConfiguration(checker.space())))
+void addFixedPairs(const Checker& checker, LeftOut& leftOut) {
+  for (const FixedPair& pair : closeFixedPairs(checker, zeroConfiguration(checker.space())))
     leftOut.except.push_back(
         {pair.a, pair.b,
          pair.touches ? LeftOutReason::touchesAtRest : LeftOutReason::isCloseAtRest});
@@ -61,13 +61,13 @@ const char* nameOf(LeftOutReason reason) {
 
 LeftOut leftOutOf(const Checker& checker) {
   LeftOut leftOut = leftOutByFilter(checker.model(), checker.required());
-  addStillPairs(checker, leftOut);
+  addFixedPairs(checker, leftOut);
   return leftOut;
 }
 
 LeftOut leftOutOf(const Problem& problem) {
   LeftOut leftOut = leftOutByFilter(problem.model, requiredBy(problem.task));
-  if (hasStillPairs(problem.model)) addStillPairs(Checker(problem), leftOut);
+  if (hasFixedPairs(problem.model)) addFixedPairs(Checker(problem), leftOut);
   return leftOut;
 }
 

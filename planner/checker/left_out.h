@@ -44,7 +44,7 @@ struct LeftOut {
   std::size_t testedAtRest = 0;  ///< number of pairs that are tested once (kTestedAtRest)
 };
 
-/// @throws as `closeStillPairs`.
+/// @throws as `closeFixedPairs`.
 LeftOut leftOutOf(const Checker& checker);
 /// Makes a checker, unless no pair needs it.
 LeftOut leftOutOf(const Problem& problem);

@@ -1,11 +1,14 @@
 #include "planner/checker/pair_survey.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <queue>
 #include <random>
+#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -41,21 +44,53 @@ struct Attempt {
   }
 };
 
+NeverInContactOptions limitsOf(const PairSurveyOptions& options, std::uint64_t boxes,
+                               std::uint64_t left) {
+  NeverInContactOptions proof{.margin = options.margin,
+                              .beyondLimits = options.beyondLimits,
+                              .interrupted = options.interrupted};
+  proof.boxes = std::min(boxes, left);
+  proof.tests = kTestsPerBox * std::min(kMostTestsPerBox / kTestsPerBox * proof.boxes, left);
+  return proof;
+}
+
+/// Makes the first attempts at all wanted pairs, in several threads. They don't depend on each
+/// other as long as the work limit is far.
+std::vector<NeverInContactResult> firstAttempts(const NeverInContact& prover,
+                                                const PairSurveyOptions& options,
+                                                const std::vector<std::size_t>& wanted,
+                                                std::uint64_t boxes,
+                                                const std::vector<SurveyedPair>& pairs) {
+  std::vector<NeverInContactResult> results(wanted.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    QueryContext context;
+    for (std::size_t i = next++; i < wanted.size() && !isSet(options.interrupted); i = next++)
+      results[i] = prover.prove(pairs[wanted[i]].a, pairs[wanted[i]].b,
+                                limitsOf(options, boxes, UINT64_MAX / kMostTestsPerBox), context);
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency() && i < wanted.size(); ++i)
+    threads.emplace_back(work);
+  work();
+  return results;
+}
+
 /// Tries to prove pairs within one work limit. See surveyPairs.
 void proveWithin(const Checker& checker, const PairSurveyOptions& options,
                  const std::vector<std::size_t>& wanted, PairSurveyProgress& progress,
                  std::vector<SurveyedPair>& pairs) {
+  if (wanted.empty()) return;
   std::priority_queue<Attempt, std::vector<Attempt>, std::greater<>> attempts;
-  for (const std::size_t pair : wanted)
-    // The cost of a repeated attempt is not negative, so all first attempts come before all
-    // repeated ones.
-    attempts.push(
-        {-1, pair, std::clamp<std::uint64_t>(options.work / wanted.size(), 1, kFirstBoxes)});
+  const auto firstBoxes = std::clamp<std::uint64_t>(options.work / wanted.size(), 1, kFirstBoxes);
+  // The cost of a repeated attempt is not negative, so all first attempts come before all repeated
+  // ones.
+  for (const std::size_t pair : wanted) attempts.push({-1, pair, firstBoxes});
   const NeverInContact prover(checker.model(), checker.scene());
+  std::vector<NeverInContactResult> first =
+      firstAttempts(prover, options, wanted, firstBoxes, pairs);
+  std::size_t taken = 0;  // of `first`, in the order of `wanted`, which is that of the queue
   QueryContext context;
-  NeverInContactOptions proof{.margin = options.margin,
-                              .beyondLimits = options.beyondLimits,
-                              .interrupted = options.interrupted};
   while (!attempts.empty() && progress.work < options.work && !isSet(options.interrupted)) {
     const Attempt attempt = attempts.top();
     attempts.pop();
@@ -63,9 +98,13 @@ void proveWithin(const Checker& checker, const PairSurveyOptions& options,
     const std::uint64_t left = options.work - progress.work;
     // An attempt with no more boxes than the previous attempt at this pair would decide nothing.
     if (pair.proof && left <= pair.proof->boxes) continue;
-    proof.boxes = std::min(attempt.boxes, left);
-    proof.tests = kTestsPerBox * std::min(kMostTestsPerBox / kTestsPerBox * proof.boxes, left);
-    pair.proof = prover.prove(pair.a, pair.b, proof, context);
+    const bool isFirst = taken < first.size(),
+               isAsAlone = kMostTestsPerBox / kTestsPerBox * attempt.boxes <= left;
+    if (isFirst && isAsAlone)
+      pair.proof = std::move(first[taken]);
+    else
+      pair.proof = prover.prove(pair.a, pair.b, limitsOf(options, attempt.boxes, left), context);
+    taken += isFirst;
     progress.work += std::min(left, pair.proof->boxes + pair.proof->tests / kTestsPerBox);
     progress.proved += pair.proof->verdict == Verdict::proved;
     if (pair.proof->verdict == Verdict::workLimit && !pair.proof->exhausted &&

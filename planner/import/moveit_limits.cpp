@@ -12,21 +12,44 @@ namespace {
 const MapKeys kFile{{"joint_limits", "default_velocity_scaling_factor",
                      "default_acceleration_scaling_factor", "cartesian_limits"},
                     {}};
-const MapKeys kJoint{
-    {"has_velocity_limits", "max_velocity", "min_velocity", "has_acceleration_limits",
-     "max_acceleration", "min_acceleration", "has_deceleration_limits", "max_deceleration",
-     "has_jerk_limits", "max_jerk", "min_jerk", "has_position_limits", "min_position",
-     "max_position", "has_effort_limits", "max_effort", "angle_wraparound"},
-    {}};
+const MapKeys kJoint{{"has_velocity_limits",
+                      "max_velocity",
+                      "min_velocity",
+                      "has_acceleration_limits",
+                      "max_acceleration",
+                      "min_acceleration",
+                      "has_deceleration_limits",
+                      "max_deceleration",
+                      "has_jerk_limits",
+                      "max_jerk",
+                      "min_jerk",
+                      "has_position_limits",
+                      "min_position",
+                      "max_position",
+                      "has_effort_limits",
+                      "max_effort",
+                      "angle_wraparound",
+                      "has_soft_limits",
+                      "soft_lower_limit",
+                      "soft_upper_limit",
+                      "k_position",
+                      "k_velocity"},
+                     {}};
 
 /// Returns `max_WHAT` if `has_WHAT_limits` is true; otherwise, or if a fault was added, returns
 /// nullopt. A deceleration may be negative, as Pilz's planner of MoveIt requires; its absolute
 /// value is returned.
-std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
+std::optional<double> readLimit(const YamlMap& joint, const std::string& what,
+                                std::vector<Note>& notes) {
   const std::string flag = "has_" + what + "_limits", key = "max_" + what;
-  const auto has = joint.boolean(flag);
+  const auto has = joint.flag(flag);
   if (!joint.find(flag)) {
-    if (joint.find(key))
+    if (what == "deceleration" && joint.find(key)) {
+      notes.push_back({joint.source().file + ": " + joint.pathOf(key) + " is not used without " +
+                           flag + ": true (MoveIt's rule)",
+                       NoteWeight::motion});
+      joint.ignore({key});
+    } else if (joint.find(key))
       joint.fault(
           key, "MoveIt ignores this limit without " + flag + "; add " + flag + ": true (or false)");
     return std::nullopt;
@@ -37,8 +60,8 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what) {
     return std::nullopt;
   }
   joint.require(key, "the limit, such as " + key + ": 2");
-  if (what != "deceleration") return joint.number(key, Range::Positive);
-  const auto value = joint.number(key, Range::Any);
+  if (what != "deceleration") return joint.quotableNumber(key, Range::Positive);
+  const auto value = joint.quotableNumber(key, Range::Any);
   if (!value) return std::nullopt;
   if (*value == 0) {
     joint.fault(key, "must not be 0");
@@ -61,21 +84,23 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
       map.require("joint_limits", "{JOINT: {has_velocity_limits: true, max_velocity: 2}}");
   if (!value) return;
   const std::vector<LimitedJoint> joints = jointsWithLimits(model);
-  std::vector<std::string> known, notPlanned, unknown, positions;
+  std::vector<std::string> known, notPlanned, unknown, positions, soft;
   for (const ModelRobot& robot : model.robots)
     for (const JointModel& joint : robot.description.joints) known.push_back(joint.name);
   const YamlMap limits(*value, map.pathOf("joint_limits"), nullptr, map.source());
   for (const YamlValue::Entry* entry : limits.entries()) {
     const YamlMap own(entry->value, limits.pathOf(entry->key), &kJoint, map.source());
-    own.ignore(
-        {"min_position", "max_position", "has_effort_limits", "max_effort", "angle_wraparound"});
+    own.ignore({"min_position", "max_position", "has_effort_limits", "max_effort",
+                "angle_wraparound", "soft_lower_limit", "soft_upper_limit", "k_position",
+                "k_velocity"});
     LimitValues values;
-    values.velocity = readLimit(own, "velocity");
-    values.acceleration = readLimit(own, "acceleration");
-    if (const auto slowing = readLimit(own, "deceleration"))
+    values.velocity = readLimit(own, "velocity", notes);
+    values.acceleration = readLimit(own, "acceleration", notes);
+    if (const auto slowing = readLimit(own, "deceleration", notes))
       values.acceleration = std::min(values.acceleration.value_or(*slowing), *slowing);
-    values.jerk = readLimit(own, "jerk");
-    if (own.boolean("has_position_limits").value_or(false)) positions.push_back(entry->key);
+    values.jerk = readLimit(own, "jerk", notes);
+    if (own.flag("has_position_limits").value_or(false)) positions.push_back(entry->key);
+    if (own.flag("has_soft_limits").value_or(false)) soft.push_back(entry->key);
     bool used = false;
     for (const LimitedJoint& joint : joints) {
       if (joint.plain != entry->key) continue;
@@ -105,6 +130,10 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
     notes.push_back({file + ": limits of the position of " + joinedFirst(positions) +
                          " are not used; set bounds in the problem instead",
                      NoteWeight::motion});
+  if (!soft.empty())
+    notes.push_back({file + ": soft limits of " + joinedFirst(soft) +
+                         " are not used; set bounds in the problem instead",
+                     NoteWeight::motion});
 }
 
 const YamlValue* valueIn(const YamlValue& map, std::string_view key) {
@@ -132,6 +161,19 @@ const YamlValue& parametersOf(const YamlValue& document, const YamlSource& sourc
   return found ? *found : first ? *first : document;
 }
 
+/// Adds a fault for each `joint_limits` beside the one that is read.
+void requireOneSet(const YamlValue& document, const YamlValue& parameters, const YamlValue* inner,
+                   const YamlSource& source) {
+  const auto fault = [&](const YamlValue& map) {
+    if (const YamlValue* const second = valueIn(map, "joint_limits"))
+      source.fault(second->line, "a second joint_limits, which is not read; keep one of them");
+  };
+  if (inner) fault(parameters);
+  if (&parameters == &document) return;
+  fault(document);
+  if (const YamlValue* const outer = valueIn(document, "robot_description_planning")) fault(*outer);
+}
+
 }  // namespace
 
 void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
@@ -143,6 +185,7 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   // `robot_description_planning`, beside other keys.
   const YamlValue& parameters = parametersOf(document, source);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
+  requireOneSet(document, parameters, inner, source);
   const YamlValue& read = inner ? *inner : parameters;
   readFile(YamlMap(read, inner ? "robot_description_planning" : "", &kFile, source), model,
            isComplete, spec, notes);

@@ -92,10 +92,14 @@ std::optional<RigidPose> readTransform(const YamlValue& value, const std::string
     pose.p = Vec3((*p)[0], (*p)[1], (*p)[2]);
   if (const auto q = readNamed(map, "rotation", {"x", "y", "z", "w"})) {
     pose.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (pose.q.coeffs().isZero(0))
-      map.fault("rotation", "a quaternion of zeros is no rotation");
-    else
-      pose.q = ofOrdinarySize(pose.q);
+    if (pose.q.coeffs().isZero(0)) {
+      source.notes.push_back({path +
+                                  ".rotation: a quaternion of zeros, the default of messages, is "
+                                  "read as no rotation (MoveIt's rule)",
+                              NoteWeight::motion});
+      pose.q = Eigen::Quaterniond::Identity();
+    }
+    pose.q = ofOrdinarySize(pose.q);
   }
   return source.faults.size() == before ? std::optional(pose) : std::nullopt;
 }

@@ -76,7 +76,7 @@ MoveitScene::MoveitScene(const std::filesystem::path& file, FaultList& faults)
 }
 
 void MoveitScene::hold(RobotSetup& setup) {
-  const RobotModel& robot = setup.robot.description;
+  const RobotDescription& robot = setup.robot.description;
   for (std::size_t i = 0; i < robot.links.size(); ++i)
     worldIsLink_ |= i != robot.root && robot.links[i].name == "world";
   if (state_) holdAt(*state_, "robot_state of the scene", source_, setup);
@@ -128,7 +128,11 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
     const YamlMap object(*item, "object " + quotedWord(*id), &kObject, source_);
     object.ignore({"type", "subframe_names", "subframe_poses"});
     Placement outer = frames.placementOf(object);
-    if (!ids.insert(*id).second) object.fault("id", "another object has this name");
+    if (!ids.insert(*id).second)
+      object.fault("id", "another object has this name");
+    else if (builder.hasObstacle(*id))
+      object.fault("id",
+                   "the problem's world has an obstacle of this name, too; rename one of them");
     // The field is a byte, which ROS 2 writes as text: "\0", "\x02".
     if (const auto operation = object.text("operation");
         operation && lowered(*operation) != "add" && *operation != "0" && *operation != "2" &&
@@ -169,7 +173,7 @@ void MoveitScene::addWorld(const std::string& root, const RigidPose& base, Model
             });
     if (shapes.empty() && isEmpty(object, "primitives") && isEmpty(object, "meshes"))
       object.fault("primitives", "the object has neither primitives nor meshes");
-    builder.addObstacle(*id, std::move(shapes));
+    if (!builder.hasObstacle(*id)) builder.addObstacle(*id, std::move(shapes));
   }
 }
 
@@ -183,7 +187,7 @@ std::vector<Note> MoveitScene::takeNotes(const Problem& problem) {
 }
 
 void MoveitScene::noteNames(const Model& model, std::vector<Note>& notes) {
-  const RobotModel& robot = model.robots.front().description;
+  const RobotDescription& robot = model.robots.front().description;
   const std::string name = message().textOrNone("robot_model_name");
   if (!name.empty() && name != robot.name && name != robot.urdfName)
     notes.push_back({source_.file + ": is for robot " + quotedWord(name) + ", and is used for " +

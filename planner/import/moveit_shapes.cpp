@@ -61,9 +61,12 @@ std::optional<Placement> readPose(const YamlValue& value, const std::string& pat
     const auto q = readNamed(map, "orientation", {"x", "y", "z", "w"});
     if (!q) return std::nullopt;
     orientation.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (!(orientation.q.coeffs().stableNorm() > 0)) {
-      map.fault("orientation", "a quaternion of zeros is no rotation");
-      return std::nullopt;
+    if (orientation.q.coeffs().isZero(0)) {
+      source.notes.push_back({path +
+                                  ".orientation: a quaternion of zeros, the default of messages, "
+                                  "is read as no rotation (MoveIt's rule)",
+                              NoteWeight::motion});
+      orientation.q = Eigen::Quaterniond::Identity();
     }
     orientation.q = ofOrdinarySize(orientation.q);
     orientation.R = rotationMatrix(orientation.q);
@@ -162,7 +165,7 @@ std::optional<PlacedShape> readOctomap(const YamlValue& value, const std::string
   const auto data = readBytes(map, "data");
   map.require("resolution", "the edge length of a cell, metres");
   if (!resolution || !data) return std::nullopt;
-  message.binary = map.boolean("binary").value_or(false);
+  message.binary = map.flag("binary").value_or(false);
   message.id = map.text("id").value_or("OcTree");
   message.resolution = *resolution;
   message.data = *data;

@@ -28,7 +28,7 @@ std::vector<std::size_t> jointsAbove(const Model& model, const ModelBody& body) 
 
 }  // namespace
 
-bool couldMove(const RobotModel& robot, std::size_t joint) {
+bool couldMove(const RobotDescription& robot, std::size_t joint) {
   const JointModel& own = robot.joints[joint];
   if (own.type == JointType::fixed) return false;
   if (own.mimic) return own.mimic->multiplier != 0 && canMove(robot.joints[own.mimic->joint]);

@@ -11,7 +11,7 @@ namespace corridor {
 
 /// Returns whether the value of a joint of a robot could change in some problem: the joint is not
 /// fixed, its limits are not equal, and if it mimics another joint, that one could move it.
-bool couldMove(const RobotModel& robot, std::size_t joint);
+bool couldMove(const RobotDescription& robot, std::size_t joint);
 
 /// Returns the part of each body of a model. Two bodies have the same part if no joint that could
 /// move is between them: they are joined by fixed joints, or are bases of robots or obstacles. The

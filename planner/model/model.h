@@ -12,7 +12,7 @@
 
 #include "planner/model/task.h"
 #include "planner/robot/kinematic_tree.h"
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 
 namespace corridor {
 
@@ -29,7 +29,7 @@ struct ModelRobot {
   /// "left" for the robot `left` of several robots. Empty for a single robot: the names of its
   /// links, joints and coordinates then have no prefix.
   std::string name;
-  RobotModel description;
+  RobotDescription description;
   RigidPose base;  ///< X_WB
 
   /// The joints that are planned for, as indices into `description.joints`. Their order is that of

@@ -29,7 +29,7 @@ bool isTested(const Model& model, std::size_t a, std::size_t b) {
 /// Links with two moving joints between them, or with a planar or floating joint, can meet in many
 /// configurations, so these pairs are tested.
 void skipLinks(Model& model, std::size_t robot) {
-  const RobotModel& description = model.robots[robot].description;
+  const RobotDescription& description = model.robots[robot].description;
   // A frame of the robot has at most one body.
   std::map<std::size_t, std::size_t> bodyOnFrame;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
@@ -95,6 +95,19 @@ ModelBuilder& ModelBuilder::addRobot(ModelRobot robot) {
   return *this;
 }
 
+ModelRobot robotOf(const Model& model, std::size_t index) {
+  ModelRobot robot = model.robots.at(index);
+  robot.plannedJoints.clear();
+  robot.linkFrames.clear();
+  const std::string prefix = robot.name.empty() ? "" : robot.name + "/";
+  for (LinkModel& link : robot.description.links)
+    for (const ModelBody& body : model.bodies)
+      if (body.robot == index &&
+          body.name == (robot.isRigid() && !prefix.empty() ? robot.name : prefix + link.name))
+        link.shapes = body.shapes;
+  return robot;
+}
+
 ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
                                      const UrdfOptions& options) {
   const std::size_t before = faults_.size();
@@ -158,6 +171,8 @@ ModelBuilder& ModelBuilder::addRigidBody(const std::string& name, JointType type
 ModelBuilder& ModelBuilder::addObstacle(std::string name, std::vector<PlacedShape> shapes,
                                         const std::optional<RigidPose>& X_WO) {
   if (shapes.empty()) return *this;
+  if (!obstacles_.insert(name).second)
+    fault("two obstacles have the name " + quotedWord(name) + "; give each a name of its own");
   // Robots come first. The search stops at the first obstacle: otherwise adding n obstacles would
   // take n² steps.
   const auto found =
@@ -259,8 +274,9 @@ Model ModelBuilder::build() {
   return model;
 }
 
-RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes) {
-  RobotModel model;
+RobotDescription rigidModel(const std::string& name, JointType type,
+                            std::vector<PlacedShape> shapes) {
+  RobotDescription model;
   model.name = name;
   model.mount = type;
   model.links.push_back({name, std::move(shapes)});

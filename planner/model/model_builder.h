@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,8 @@ class ModelBuilder {
                             const std::optional<RigidPose>& X_WO = std::nullopt);
   ModelBuilder& addObstacle(const std::string& name, const Primitive& primitive,
                             const RigidPose& at = {});
+  /// Returns whether an obstacle was added under this name. (A second one is a fault.)
+  bool hasObstacle(const std::string& name) const { return obstacles_.contains(name); }
 
   /// Sets the bounds of the position of a planar or floating joint, or of a rigid body.
   /// @param joint the name of the joint or body.
@@ -93,12 +96,17 @@ class ModelBuilder {
   Model model_;
   CoordinateGroup joints_;  // the coordinates of all single joints
   std::vector<Bound> bounds_;
+  std::set<std::string> obstacles_;  // their names, as given
   std::vector<std::array<std::string, 2>> allowed_;
   std::vector<Fault> faults_;
 };
 
+/// Returns a robot of a model as `ModelBuilder::addRobot` takes it, with the shapes of its links.
+ModelRobot robotOf(const Model& model, std::size_t robot);
+
 /// Makes the description of a rigid robot. @param type planar or floating.
-RobotModel rigidModel(const std::string& name, JointType type, std::vector<PlacedShape> shapes);
+RobotDescription rigidModel(const std::string& name, JointType type,
+                            std::vector<PlacedShape> shapes);
 
 /// Make a shape. A primitive must be legal (`checkPrimitive`). If `solid` is true, everything
 /// inside the mesh belongs to the shape; the mesh must then be watertight, or else the constructor

@@ -13,7 +13,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns the joints between two links.
-std::vector<std::size_t> jointsBetween(const RobotModel& robot, std::size_t a, std::size_t b) {
+std::vector<std::size_t> jointsBetween(const RobotDescription& robot, std::size_t a,
+                                       std::size_t b) {
   std::vector<std::optional<std::size_t>> above(robot.links.size());
   for (std::size_t j = 0; j < robot.joints.size(); ++j) above[robot.joints[j].child] = j;
   const auto pathFrom = [&](std::size_t link) {

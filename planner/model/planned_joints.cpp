@@ -16,8 +16,8 @@ bool canMove(const JointModel& joint) {
 std::vector<std::size_t> allMoving(const ModelRobot& robot) {
   std::vector<std::size_t> all;
   for (std::size_t j = 0; j < robot.description.joints.size(); ++j)
-    if (canMove(robot.description.joints[j]) && !robot.held.contains(j) &&
-        !robot.heldPoses.contains(j))
+    if (canMove(robot.description.joints[j]) && !robot.description.joints[j].passive &&
+        !robot.held.contains(j) && !robot.heldPoses.contains(j))
       all.push_back(j);
   return all;
 }
@@ -27,12 +27,12 @@ std::string whyNoneMoves(const ModelRobot& robot) {
   std::vector<std::string> still;  // joints whose limits are equal
   double limit = 0;                // limit of the first joint in `still`
   bool isEqual = true;             // whether all joints in `still` have that limit
-  bool isHeld = false;
+  bool isHeld = false, isPassive = false;
   const std::vector<JointModel>& joints = robot.description.joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!hasOwnValue(joints[j])) continue;
     if (canMove(joints[j])) {
-      isHeld = true;
+      (joints[j].passive ? isPassive : isHeld) = true;
       continue;
     }
     if (still.empty()) limit = joints[j].lower;
@@ -40,6 +40,7 @@ std::string whyNoneMoves(const ModelRobot& robot) {
     still.push_back(joints[j].name);
   }
   if (isHeld) return none + ", except those in hold";
+  if (isPassive) return none + ", except passive ones; joints: [NAME, …] plans for these";
   if (!still.empty())
     return none + ": " + joinedFirst(still) + ": lower = upper" +
            (isEqual ? " = " + shortest(limit) : "");
@@ -70,7 +71,7 @@ std::string heldText(const ModelRobot& robot) {
 
 void chooseJoints(ModelRobot& robot, const std::vector<std::size_t>& active) {
   robot.planned = active;
-  const RobotModel& model = robot.description;
+  const RobotDescription& model = robot.description;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const JointModel& joint = model.joints[j];
     if (!hasOwnValue(joint) || robot.held.contains(j) || robot.heldPoses.contains(j) ||

@@ -12,7 +12,7 @@ namespace corridor {
 /// and its lower limit differs from its upper limit.
 bool canMove(const JointModel& joint);
 
-/// Returns all joints that can move, except those that are held already.
+/// Returns all joints that can move, except those that are held already or passive.
 std::vector<std::size_t> allMoving(const ModelRobot& robot);
 
 /// Returns the complaint about a robot for which `allMoving` returns no joint: "has no joint that

@@ -199,7 +199,7 @@ class RobotAssembly {
   }
 
   ModelRobot& robot_;
-  RobotModel& description_;
+  RobotDescription& description_;
   const bool alone_;
   const std::string prefix_;
   Model& model_;

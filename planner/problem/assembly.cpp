@@ -142,7 +142,7 @@ void requireFiniteSizes(const Model& model, const std::string& file) {
 
 }  // namespace
 
-std::vector<Note> notesOnMeshes(const RobotModel& robot) {
+std::vector<Note> notesOnMeshes(const RobotDescription& robot) {
   return notesOnFiles(robot.links);
 }
 

@@ -15,7 +15,7 @@ std::vector<Note> notesOf(const RobotSetup& setup);
 
 /// Returns the notes on the robot's mesh files, each with the files. `finishProblem` adds them to a
 /// problem's.
-std::vector<Note> notesOnMeshes(const RobotModel& robot);
+std::vector<Note> notesOnMeshes(const RobotDescription& robot);
 
 /// Adds the robots to the model that `builder` makes, and their notes and files to `source`.
 void addRobots(std::vector<RobotSetup> robots, ModelBuilder& builder, Source& source);

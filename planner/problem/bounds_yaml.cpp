@@ -85,7 +85,7 @@ void narrow(const YamlMap& map, const std::string& key, bool degrees, const Plan
 
 void readOfJoints(const YamlValue& value, const std::string& path, const ModelRobot& robot,
                   Problem& problem, YamlSource& source) {
-  const RobotModel& model = robot.description;
+  const RobotDescription& model = robot.description;
   const YamlMap map(value, path, nullptr, source);
   readJointValues(map, model, [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
     for (const PlannedJoint& planned : robot.plannedJoints) {

@@ -20,6 +20,11 @@ bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Tran
                                std::to_string(cloud.points.size() + cloud.notFinite) +
                                " points are not finite, and are left out",
                            NoteWeight::coverage});
+  if (cloud.unnamedColumns > 0)
+    shape.notes.push_back({shape.file.string() + ": no header names its columns; the first three " +
+                               "are x, y, z, and " + std::to_string(cloud.unnamedColumns) +
+                               (cloud.unnamedColumns == 1 ? " more is" : " more are") + " not read",
+                           NoteWeight::coverage});
   if (cloud.comment > 0)
     shape.notes.push_back(
         {shape.file.string() + ": line " + std::to_string(cloud.comment) +

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 
+#include "planner/problem/joint_yaml.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/state_yaml.h"
 
 namespace corridor {
 namespace {
 
-/// Returns the value of a key and marks it as read, or returns nullptr if the key is absent.
-const YamlValue* entryOf(const YamlValue& map, const char* key) {
+/// Returns the value of a key and marks it as read, or returns nullptr if the key is absent, or is
+/// a joint with its value.
+const YamlValue* entryOf(const YamlValue& map, const char* key, const Problem& problem) {
   for (const auto& entry : map.entries)
-    if (entry.key == key) {
+    if (entry.key == key &&
+        !isJointValue(problem.model.robots.front().description, key, entry.value)) {
       entry.use = YamlValue::Entry::Use::read;
       return &entry.value;
     }
@@ -84,7 +87,7 @@ void readGoalList(const YamlValue& list, const std::string& path, StateReader& r
     const YamlValue& item = list.items[i];
     const std::string name = path + "[" + std::to_string(i) + "]";
     source.lines.emplace("goal[" + std::to_string(i) + "]", item.line);
-    if (const YamlValue* within = entryOf(item, "within")) {
+    if (const YamlValue* within = entryOf(item, "within", problem)) {
       source.fault(
           within->line,
           name + ".within: several goals share one region; write goal: {any: […], within: {…}}");
@@ -96,8 +99,9 @@ void readGoalList(const YamlValue& list, const std::string& path, StateReader& r
 
 void readGoals(const YamlValue& value, StateReader& reader, Problem& problem, YamlSource& source) {
   if (isListOfGoals(value, problem)) return readGoalList(value, "goal", reader, problem, source);
-  if (const YamlValue* within = entryOf(value, "within")) readWithin(*within, problem, source);
-  if (const YamlValue* any = entryOf(value, "any")) {
+  if (const YamlValue* within = entryOf(value, "within", problem))
+    readWithin(*within, problem, source);
+  if (const YamlValue* any = entryOf(value, "any", problem)) {
     static const MapKeys keys{{"any", "within"}, {}};
     const YamlMap map(value, "goal", &keys, source);
     return readGoalList(*any, "goal.any", reader, problem, source);

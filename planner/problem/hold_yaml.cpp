@@ -15,7 +15,7 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
   const YamlValue* value = file.find("hold");
   if (!value) return std::nullopt;
   if (value->kind == YamlValue::Kind::Scalar) return value->text;
-  const RobotModel& model = setup.robot.description;
+  const RobotDescription& model = setup.robot.description;
   const YamlMap map(*value, "hold", nullptr, file.source());
   std::vector<Note>& notes = setup.robot.description.notes;
   const auto read = [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
@@ -40,10 +40,11 @@ std::optional<std::string> readHold(const YamlMap& file, RobotSetup& setup) {
                               joint.type == JointType::revolute && !degrees ? joint.name : ""));
   };
   readJointValues(map, model, read, {"from"});
-  return map.text("from");
+  const YamlValue* const from = map.find("from");
+  return from && !isJointValue(model, "from", *from) ? map.text("from") : std::nullopt;
 }
 
-const NamedState* findState(const RobotModel& model, const std::string& name,
+const NamedState* findState(const RobotDescription& model, const std::string& name,
                             const YamlPlace& place) {
   const auto fault = [&](const std::string& text) {
     place.source.fault(place.line, place.path + ": " + text);
@@ -128,7 +129,9 @@ void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots) {
   for (RobotSetup& setup : robots) {
     const std::string& robot = setup.robot.name;
     const YamlValue* value = start && !robot.empty() ? entryOf(*start, robot) : start;
-    if (const YamlValue* from = value ? entryOf(*value, "from") : nullptr) value = from;
+    if (const YamlValue* from = value ? entryOf(*value, "from") : nullptr;
+        from && !isJointValue(setup.robot.description, "from", *from))
+      value = from;
     if (!value || value->kind != YamlValue::Kind::Scalar) continue;
     const auto state = setup.robot.description.states.find(value->text);
     // Unknown and unusable states are skipped here, because StateReader reports them.

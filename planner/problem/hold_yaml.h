@@ -33,7 +33,7 @@ void holdAsStart(const YamlMap& problem, std::vector<RobotSetup>& robots);
 
 /// Returns the state with this name. If there is no such state, or if it can't be used, adds a
 /// fault and returns nullptr.
-const NamedState* findState(const RobotModel& model, const std::string& name,
+const NamedState* findState(const RobotDescription& model, const std::string& name,
                             const YamlPlace& place);
 
 /// Returns the pose of a planar or floating joint in a state, or nullopt if the state has no pose

@@ -19,14 +19,19 @@ bool hasDecimalComma(const YamlValue::Entry& entry) {
 
 }  // namespace
 
-std::string noSuchJoint(const std::string& name, const RobotModel& model) {
+std::string noSuchJoint(const std::string& name, const RobotDescription& model) {
+  for (const LinkModel& link : model.links)
+    if (link.name == name)
+      return quotedWord(name) +
+             " is a link, not a joint; poses of links are not supported: give the "
+             "joints' values";
   std::vector<std::string> known;
   for (const JointModel& joint : model.joints)
     if (joint.type != JointType::fixed && !joint.mimic) known.push_back(joint.name);
   return "there is no joint " + quotedWord(name) + didYouMean(name, known) + knownWords(known);
 }
 
-std::string whyNotActive(const RobotModel& model, std::size_t j) {
+std::string whyNotActive(const RobotDescription& model, std::size_t j) {
   const JointModel& joint = model.joints[j];
   if (joint.type == JointType::fixed) return "is fixed";
   if (joint.mimic)
@@ -44,12 +49,18 @@ std::string degreesHint(double value, double lower, double upper, const std::str
   return "; in degrees, write " + joint.substr(joint.rfind('/') + 1) + "_deg: " + shortest(value);
 }
 
-void readJointValues(const YamlMap& map, const RobotModel& model,
+bool isJointValue(const RobotDescription& model, const std::string& key, const YamlValue& value) {
+  double number = 0;
+  return findJoint(model, key) && value.kind == YamlValue::Kind::Scalar &&
+         parseNumber(value.text, Range::Any, number).empty();
+}
+
+void readJointValues(const YamlMap& map, const RobotDescription& model,
                      const std::function<void(std::size_t, const YamlValue::Entry&, bool)>& read,
                      const std::set<std::string>& others) {
   for (const YamlValue::Entry* entry : map.entries()) {
     const std::string& key = entry->key;
-    if (others.contains(key)) continue;
+    if (others.contains(key) && !isJointValue(model, key, entry->value)) continue;
     if (const auto j = findJoint(model, key)) {
       read(*j, *entry, false);
       continue;

@@ -88,9 +88,9 @@ KeysOfMaps makeProblemKeys() {
 KeysOfMaps makeRobotKeys() {
   KeysOfMaps keys{
       {"",
-       {{"format", "name", "urdf", "srdf", "xacro", "packages", "visuals", "limits", "collada_up",
-         "group", "joints", "hold", "states", "allow", "never_in_contact", "rigid", "shapes",
-         "reference", "weights"},
+       {{"format",           "name",       "urdf",   "srdf",      "xacro",   "packages", "visuals",
+         "limits",           "collada_up", "group",  "joints",    "hold",    "states",   "allow",
+         "never_in_contact", "rigid",      "shapes", "reference", "weights", "solid"},
         {}}},
       {"weights", {{"joints", "rotation"}, {}}},
       {"never_in_contact", {{"margin", "beyond_limits", "digest", "pairs"}, {}}},

@@ -8,6 +8,7 @@
 #include "planner/import/mbm_json.h"
 #include "planner/import/omplapp_cfg.h"
 #include "planner/problem/problem_yaml.h"
+#include "planner/robot/urdf_file.h"
 
 namespace corridor {
 
@@ -17,8 +18,7 @@ Problem readProblem(const std::filesystem::path& path) {
     return readMbmProblem(text.substr(0, hash + 5), text.substr(hash + 6));
   if (path.extension() == ".json") return readMbmProblem(path, "");
   std::error_code none;  // ignored: the reader reports a file that can't be accessed
-  if (const auto kind = path.extension();
-      (kind == ".urdf" || kind == ".xacro") && std::filesystem::is_regular_file(path, none))
+  if (std::filesystem::is_regular_file(path, none) && isUrdf(path))
     throw InputError(
         Fault{path.string(), 0,
               "this is a robot, not a problem; `corridor new problem` writes a problem "

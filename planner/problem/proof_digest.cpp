@@ -57,7 +57,7 @@ RobotDigest digestOfShape(const PlacedShape& shape) {
 
 }  // namespace
 
-RobotDigest digestOfRobot(const RobotModel& robot) {
+RobotDigest digestOfRobot(const RobotDescription& robot) {
   DigestBytes bytes;
   const auto count = [&](std::size_t number) { bytes.add(std::uint64_t{number}); };
   count(robot.links.size());

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 
 /// The digest of a list `never_in_contact`: it ties the list to the robot for which its pairs were
 /// proved. If the robot, the list or what the proof covers changes, the digest no longer matches.
@@ -32,7 +32,7 @@ using RobotDigest = std::array<std::uint8_t, 32>;
 /// number of parts, and for each the number of points, the points, the radius, and 1 if it has flat
 /// ends, else 0.
 /// @throws std::runtime_error as sha256 does.
-RobotDigest digestOfRobot(const RobotModel& robot);
+RobotDigest digestOfRobot(const RobotDescription& robot);
 
 /// Returns the digest of a list, as 64 hexadecimal digits: the SHA-256 of the text
 /// "corridor-never-in-contact-1", the robot's digest (32 bytes), margin, beyondLimits, the number

@@ -11,7 +11,7 @@
 #include "planner/problem/shape_yaml.h"
 #include "planner/problem/urdf_robot.h"
 #include "planner/problem/yaml_ledger.h"
-#include "planner/robot/xacro.h"
+#include "planner/robot/urdf_file.h"
 
 namespace corridor {
 namespace {
@@ -40,7 +40,7 @@ Vec3 centroid(const std::vector<PlacedShape>& shapes) {
           static_cast<double>(sum[2] / n)};
 }
 
-void shiftToReference(const YamlMap& file, RobotModel& model, bool shapesAreSound) {
+void shiftToReference(const YamlMap& file, RobotDescription& model, bool shapesAreSound) {
   const YamlValue* value = file.find("reference");
   if (!value) return;
   std::vector<PlacedShape>& shapes = model.links.front().shapes;
@@ -104,8 +104,7 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
                                         std::vector<Note>& notesOfFaulty, const std::string& group,
                                         RobotUse use) {
   RobotSetup setup;
-  if (file.extension() == ".urdf" || isXacro(file))
-    return readBareUrdf(file, use, faults, notesOfFaulty);
+  if (isUrdf(file)) return readBareUrdf(file, use, faults, notesOfFaulty);
 
   setup.files.push_back(file);
   YamlValue document;

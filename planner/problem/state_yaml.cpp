@@ -81,7 +81,7 @@ std::optional<Configuration> StateReader::read(const YamlValue& value, const std
 
 bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = robots()[robot].description;
+  const RobotDescription& model = robots()[robot].description;
   if (model.mount != JointType::fixed) return readRigid(robot, value, path, others, q);
   Given given;
   if (value.kind == YamlValue::Kind::Scalar)
@@ -95,17 +95,16 @@ bool StateReader::readRobot(std::size_t robot, const YamlValue& value, const std
     return false;
   }
   const YamlMap map(value, path, nullptr, source_);
-  if (map.find("from")) {
+  if (const YamlValue* const from = map.find("from"); from && !isJointValue(model, "from", *from)) {
     const auto name = map.text("from");
-    if (!name || !fromNamed(robot, *name, map.find("from")->line, map.pathOf("from"), given))
-      return false;
+    if (!name || !fromNamed(robot, *name, from->line, map.pathOf("from"), given)) return false;
   }
   return readJoints(robot, map, given, others) && apply(robot, given, value.line, path, q);
 }
 
 bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std::string& path,
                             const std::set<std::string>& others, Configuration& q) {
-  const RobotModel& model = robots()[robot].description;
+  const RobotDescription& model = robots()[robot].description;
   const bool spatial = model.mount == JointType::floating;
   PoseForm form{spatial,
                 (isAlone() ? "the robot" : robots()[robot].name) +
@@ -125,7 +124,7 @@ bool StateReader::readRigid(std::size_t robot, const YamlValue& value, const std
 
 bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line,
                             const std::string& path, Given& given) {
-  const RobotModel& model = robots()[robot].description;
+  const RobotDescription& model = robots()[robot].description;
   const NamedState* const state = findState(model, name, {source_, path, line});
   if (!state) return false;
   for (const auto& [number, value] : state->values)
@@ -135,7 +134,7 @@ bool StateReader::fromNamed(std::size_t robot, const std::string& name, int line
 
 bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const std::string& name,
                             int line, const std::string& path) {
-  const RobotModel& model = robots()[robot].description;
+  const RobotDescription& model = robots()[robot].description;
   const bool isGoal = path.starts_with("goal");
   bool sound = true;
   const auto disagree = [&](std::size_t joint, const std::string& text) {
@@ -173,7 +172,7 @@ bool StateReader::checkHeld(std::size_t robot, const NamedState& state, const st
 
 bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given,
                              const std::set<std::string>& others) {
-  const RobotModel& model = robots()[robot].description;
+  const RobotDescription& model = robots()[robot].description;
   const ModelRobot& setup = robots()[robot];
   const std::size_t before = source_.faults.size();
   std::set<std::string> known = others;
@@ -185,9 +184,14 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
         const std::string path = map.pathOf(entry.key);
         if (const std::string why = whyNotActive(model, j); !why.empty())
           return map.fault(entry.key, why);
-        if (const auto held = setup.held.find(j); held != setup.held.end())
-          return map.fault(entry.key, "is held at " + shortest(held->second) +
-                                          ", and not planned for" + kHowToPlanForIt);
+        if (const auto held = setup.held.find(j); held != setup.held.end()) {
+          const auto number = map.number(entry.key);
+          const double value = number.value_or(0) * (degrees ? std::numbers::pi / 180 : 1);
+          if (number && !(std::abs(value - held->second) <= equalUpToRounding(held->second)))
+            map.fault(entry.key, "is held at " + shortest(held->second) + ", and not planned for" +
+                                     kHowToPlanForIt);
+          return;
+        }
         if (setup.heldPoses.contains(j))
           return map.fault(entry.key,
                            std::string("is held, and not planned for") + kHowToPlanForIt);

@@ -9,6 +9,7 @@
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "collision/core/text_encoding.h"
 #include "collision/geometry/column_names.h"
 #include "planner/problem/text_words.h"
 #include "planner/problem/yaml_reader.h"
@@ -31,9 +32,11 @@ bool hasLetters(const std::string& text) {
 /// Returns the number of the first comma of a line with nothing but blanks before it, or 0.
 int commaAfterNothing(const std::string& line) {
   int commas = 0;
-  bool isEmpty = true;
-  for (const char c : line) {
-    if (c == '#') break;
+  bool isEmpty = true, isQuoted = false;
+  for (const char c : line.substr(0, commentStart(line))) {
+    if (c == '"') isQuoted = !isQuoted;
+    if (isQuoted) isEmpty = false;
+    if (isQuoted) continue;
     if (c == ',') {
       ++commas;
       if (isEmpty) return commas;
@@ -183,8 +186,8 @@ bool TableLines::next() {
   isHeader_ = false;
   while (std::getline(lines_, line_)) {
     ++number_;
-    if (number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);  // byte-order mark
-    const std::size_t mark = line_.find('#');
+    if (number_ == 1) line_ = withoutByteOrderMark(line_);
+    const std::size_t mark = commentStart(line_);
     const bool isCommentedHeader = mark != std::string::npos && readComment(mark);
     if (isCommentedHeader) line_.erase(0, 1);
     if (const int comma = commaAfterNothing(line_); comma > 0)
@@ -195,7 +198,7 @@ bool TableLines::next() {
     words_ = wordsOfLine(line_);
     if (words_.empty()) continue;
     if (hasRows_) return true;
-    if (line_.find(';') < line_.find('#'))
+    if (line_.find(';') < mark && line_.find('"') == line_.npos)
       fail(number_,
            "\";\" separates the numbers; separate them by commas or blanks, and write decimal "
            "points, "
@@ -221,7 +224,7 @@ bool TableLines::next() {
       if (isName_ && sorted == names)
         fail(number_,
              "the names of all columns are numbers, so this may be a header or a row; for a row, "
-             "write decimal points: 1.0");
+             "write decimal points: 1.0, and for a header, quotes: \"1\"");
       if (likeHeader_ != 0) {
         std::string header;
         for (const std::string& name : columns_) header += (header.empty() ? "" : ",") + name;
@@ -237,7 +240,9 @@ bool TableLines::next() {
 }
 
 bool TableLines::isHeaderLine(const Words& words) const {
-  if (!isName_ || std::all_of(words.begin(), words.end(), isNumber)) return false;
+  if (!isName_) return false;
+  if (std::all_of(words.begin(), words.end(), isNumber))  // joints may be called 1 and 2
+    return line_.find('"') != line_.npos && std::all_of(words.begin(), words.end(), isName_);
   return std::none_of(words.begin(), words.end(), isNumber) ||
          std::any_of(words.begin(), words.end(), isName_);
 }

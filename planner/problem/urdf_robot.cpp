@@ -9,6 +9,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/geometry/mesh_health.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/hold_yaml.h"
 #include "planner/problem/joint_yaml.h"
@@ -69,10 +70,11 @@ std::vector<std::string> readXacro(const YamlMap& file) {
 
 /// Reads URDF and SRDF. Returns nullopt if one of them has a fault; `notesOfFaulty` then gets the
 /// notes.
-std::optional<RobotModel> readModel(const std::filesystem::path& urdf, const UrdfRules& rules,
-                                    const std::optional<std::filesystem::path>& srdf,
-                                    FaultList& faults, std::vector<std::filesystem::path>& files,
-                                    std::vector<Note>& notesOfFaulty) {
+std::optional<RobotDescription> readModel(const std::filesystem::path& urdf, const UrdfRules& rules,
+                                          const std::optional<std::filesystem::path>& srdf,
+                                          FaultList& faults,
+                                          std::vector<std::filesystem::path>& files,
+                                          std::vector<Note>& notesOfFaulty) {
   std::vector<Fault> found;
   std::vector<std::filesystem::path> named;
   auto model = readUrdf(urdf, rules, found, named, &notesOfFaulty);
@@ -91,7 +93,7 @@ using JointList = std::vector<std::size_t>;
 
 /// Adds the states of the group a second time, under their names without the group's name. For
 /// example, if the group is "arm", the name "home" then also means "arm/home".
-void addStatesOf(const std::string& group, RobotModel& model) {
+void addStatesOf(const std::string& group, RobotDescription& model) {
   const std::string prefix = group + "/";
   std::map<std::string, NamedState> added;
   for (const auto& [name, state] : model.states)
@@ -102,7 +104,7 @@ void addStatesOf(const std::string& group, RobotModel& model) {
 
 /// Returns the joints of the group that are planned for, and adds faults to the map's source.
 /// @param byDefault the name of the group that is used if the file has no key `group`.
-JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotModel& model) {
+JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotDescription& model) {
   JointList active;
   const auto name = map.find("group") ? map.text("group") : std::optional(byDefault);
   if (!name) return active;
@@ -123,7 +125,8 @@ JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotModel
     map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + group.unusable);
   } else {
     for (const std::string& joint : group.joints)
-      if (const auto j = findJoint(model, joint); j && canMove(model.joints[*j]))
+      if (const auto j = findJoint(model, joint);
+          j && canMove(model.joints[*j]) && !model.joints[*j].passive)
         active.push_back(*j);
     if (!group.missing.empty())
       model.notes.push_back({"the group " + quotedWord(*name) + " is used without " +
@@ -144,7 +147,7 @@ JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotModel
   return active;
 }
 
-JointList readJointList(const YamlMap& map, const RobotModel& model) {
+JointList readJointList(const YamlMap& map, const RobotDescription& model) {
   JointList active;
   const auto names = readWords(*map.find("joints"), "such as [pan, lift]", "joints", map.source());
   if (!names) return active;
@@ -174,7 +177,7 @@ void noteThatNoneMoves(const std::filesystem::path& urdf, ModelRobot& robot) {
 
 /// Reads `states`: maps of joint values, by the state's name. A state replaces the SRDF's state of
 /// the same name.
-void readStates(const YamlMap& file, RobotModel& model) {
+void readStates(const YamlMap& file, RobotDescription& model) {
   const YamlValue* value = file.find("states");
   if (!value) return;
   const YamlMap states(*value, "states", nullptr, file.source());
@@ -201,7 +204,7 @@ void readStates(const YamlMap& file, RobotModel& model) {
 
 /// Reads a list of pairs of links.
 std::vector<std::array<std::string, 2>> readLinkPairs(const YamlMap& map, const char* key,
-                                                      const RobotModel& model) {
+                                                      const RobotDescription& model) {
   std::vector<std::array<std::string, 2>> pairs;
   const YamlValue& value = *map.find(key);
   std::vector<std::string> links;
@@ -234,7 +237,7 @@ std::vector<std::array<std::string, 2>> readLinkPairs(const YamlMap& map, const 
 
 /// Reads `never_in_contact`. Its pairs are added to the model if the digest shows that they were
 /// proved for this robot. Otherwise a note says that they are tested.
-void readProvedPairs(const YamlMap& map, RobotModel& model) {
+void readProvedPairs(const YamlMap& map, RobotDescription& model) {
   map.require("margin", "metres: the margin that the proof of these pairs covers");
   map.require("beyond_limits", "rad or m: how far the proof goes beyond the limits of joints");
   map.require("pairs", "pairs of links, such as [[hand, foot]]");
@@ -270,7 +273,48 @@ void readProvedPairs(const YamlMap& map, RobotModel& model) {
        NoteWeight::motion});
 }
 
-void readAllow(const YamlMap& file, RobotModel& model) {
+/// Reads `solid`: true, or a list of links. The meshes of these links are made solid. With `true`,
+/// meshes that are not watertight stay surfaces, and a note names their links.
+void readSolid(const YamlMap& file, RobotDescription& model) {
+  const YamlValue* const value = file.find("solid");
+  if (!value) return;
+  const bool isList = value->kind == YamlValue::Kind::List;
+  std::vector<std::string> names;
+  if (isList) {
+    const auto words = readWords(*value, "such as [hand, finger]", "solid", file.source());
+    if (!words) return;
+    names = *words;
+  } else if (!file.boolean("solid").value_or(false)) {
+    return;
+  }
+  std::vector<std::string> links, open;
+  for (LinkModel& link : model.links) {
+    links.push_back(link.name);
+    const auto named = std::find(names.begin(), names.end(), link.name);
+    if (isList && named == names.end()) continue;
+    for (PlacedShape& shape : link.shapes) {
+      if (!shape.mesh) continue;  // other shapes are always solid
+      const std::string why = inspectMesh(shape.mesh->mesh).whyNotWatertight;
+      shape.solid = why.empty();
+      if (!why.empty() && isList)
+        file.fault("solid", "needs watertight meshes, and " + shape.file.string() + " of " +
+                                quotedWord(link.name) + " is not watertight: " + why +
+                                "; repair the mesh, or leave the link out");
+      else if (!why.empty())
+        open.push_back(link.name);
+    }
+  }
+  for (const std::string& name : names)
+    if (std::find(links.begin(), links.end(), name) == links.end())
+      file.fault("solid", "there is no link " + quotedWord(name) + didYouMean(name, links) +
+                              knownWords(links));
+  if (!open.empty())
+    model.notes.push_back(
+        {"solid: meshes that are not watertight stay surfaces: " + joinedFirst(open),
+         NoteWeight::coverage});
+}
+
+void readAllow(const YamlMap& file, RobotDescription& model) {
   if (file.find("allow"))
     for (const auto& [a, b] : readLinkPairs(file, "allow", model))
       model.allowed.push_back({a, b, std::string(kAllowedByRobot)});
@@ -332,6 +376,7 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   setup.robot.description = std::move(*model);
   setup.robot.description.name = name;
   const std::size_t before = map.source().faults.size();
+  readSolid(map, setup.robot.description);
   readStates(map, setup.robot.description);
   const std::optional<std::string> heldState = readHold(map, setup);
   const YamlPlace hold{map.source(), "hold", heldState ? map.find("hold")->line : 0};

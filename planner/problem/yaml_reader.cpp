@@ -246,6 +246,15 @@ std::optional<double> YamlMap::number(std::string_view key, Range range) const {
   return std::nullopt;
 }
 
+std::optional<double> YamlMap::quotableNumber(std::string_view key, Range range) const {
+  const YamlValue* const value = find(key);
+  double result = 0;
+  return value && value->kind == YamlValue::Kind::Scalar &&
+                 parseNumber(value->text, range, result).empty()
+             ? result
+             : number(key, range);
+}
+
 std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key,
                                                   const WholeRange& range) const {
   const YamlValue* value = find(key);

@@ -97,6 +97,8 @@ class YamlMap {
   // Each of the following functions returns nullopt if the key is absent. If the value is of the
   // wrong kind, the function adds a fault and returns nullopt.
   std::optional<double> number(std::string_view key, Range range = Range::Any) const;
+  /// As `number`, also in quotes, as other programs write numbers.
+  std::optional<double> quotableNumber(std::string_view key, Range range = Range::Any) const;
   std::optional<std::uint64_t> wholeNumber(std::string_view key,
                                            const WholeRange& range = {}) const;
   std::optional<bool> boolean(std::string_view key) const;

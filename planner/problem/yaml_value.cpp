@@ -14,6 +14,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
+#include "collision/core/text_encoding.h"
 
 namespace corridor {
 namespace {
@@ -253,6 +254,21 @@ std::string_view withoutLastMarks(std::string_view text) {
   }
 }
 
+/// Returns the line of a directive (%YAML …) that follows other lines than directives and comments,
+/// which yaml-cpp drops; 0 if there is none.
+int lateDirective(std::string_view text) {
+  bool isLate = false;
+  int number = 0;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
+    begin += line.size() + 1;
+    if (line.starts_with('%') && isLate) return number + 1;
+    isLate |=
+        line.find_first_not_of(" \t\r") != line.npos && line.front() != '%' && line.front() != '#';
+  }
+  return 0;
+}
+
 /// Returns a clearer message for the faults that people make most, or else yaml-cpp's message.
 std::string explained(const YAML::Exception& error, const std::string& line) {
   using namespace YAML::ErrorMsg;
@@ -290,9 +306,12 @@ std::string explained(const YAML::Exception& error, const std::string& line) {
 YamlValue parseYaml(const std::string& file, const std::string& given, const YamlLimits& limits) {
   const std::string text = withLineFeeds(given);  // yaml-cpp ends comments at LF only
   const bool isWide = hasWideCharacters(text);  // then positions of yaml-cpp are not those of bytes
-  const std::string_view utf8 = isWide ? ""
-                                       : withoutLastMarks(std::string_view(text).substr(
-                                             text.starts_with("\xef\xbb\xbf") ? 3 : 0));
+  if (!isWide) requireUtf8(text, file);
+  const std::string_view utf8 = isWide ? "" : withoutLastMarks(withoutByteOrderMark(text));
+  if (const int line = lateDirective(utf8); line > 0)
+    throw InputError(Fault{file, line,
+                           "a line that begins with % is not read after the first lines; "
+                           "remove it, or put the value in quotes"});
   TreeBuilder first(file, utf8, limits), second(file, utf8, limits);
   try {
     // With the line break, yaml-cpp also passes on the last value if its quote is not closed.

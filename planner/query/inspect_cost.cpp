@@ -222,7 +222,7 @@ int inspectCost(const CostArguments& a) {
                       {"simd", simdTarget()},
                       {"volumes", ordered_json::array()}};
     for (const CostRow& row : rows) j["volumes"].push_back(rowJson(row));
-    std::cout << j.dump(2) << '\n';
+    std::cout << jsonText(j) << '\n';
     return kDone;
   }
   const ResultPrinter out(false);

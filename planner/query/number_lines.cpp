@@ -6,8 +6,10 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "collision/core/text_encoding.h"
 #include "planner/app/output.h"
 #include "planner/problem/number_text.h"
+#include "planner/problem/table_lines.h"
 
 namespace corridor::app {
 namespace {
@@ -31,6 +33,19 @@ std::string numbersOf(std::string_view line, std::vector<double>& values) {
   }
 }
 
+/// Returns what is wrong with a comment that gives another unit, or that names the numbers of a
+/// pose in another order; otherwise "".
+std::string whyNotComment(const std::string& comment) {
+  if (const std::string unit = otherUnit(comment); !unit.empty())
+    return "the comment says " + quotedWord(unit) + ", but lengths are read in metres";
+  const std::string text = lowered(comment);
+  if (const auto t = text.find("tx"), r = text.find("r00");
+      t != text.npos && r != text.npos && t < r)
+    return "the comment names the numbers in another order than r00 r01 … r22 tx ty tz, in which "
+           "they are read";
+  return "";
+}
+
 }  // namespace
 
 void readNumberLines(const std::filesystem::path& file, const std::string& what,
@@ -40,15 +55,16 @@ void readNumberLines(const std::filesystem::path& file, const std::string& what,
   const std::string text = readTextStream(file, "a file of " + what + ", one per line,");
   int number = 0, faulty = 0, lastFaulty = 0;
   bool isEmpty = true;
-  // Skips the byte order mark of UTF-8, which some editors write.
-  for (std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; begin < text.size();) {
+  for (std::size_t begin = text.size() - withoutByteOrderMark(text).size(); begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line(text.data() + begin, end - begin);
     begin = end + 1;
     ++number;
+    const std::string comment(line.substr(std::min(line.find('#'), line.size())));
     line = line.substr(0, line.find('#'));
     std::vector<double> values;
     std::string complaint = numbersOf(line, values);
+    if (complaint.empty()) complaint = whyNotComment(comment);
     if (complaint.empty() && values.empty()) continue;
     isEmpty = false;
     if (complaint.empty()) complaint = take(values);

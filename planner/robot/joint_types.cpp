@@ -46,7 +46,7 @@ bool hasOwnValue(const JointModel& joint) {
   return joint.type != JointType::fixed && !joint.mimic;
 }
 
-std::optional<std::size_t> findJoint(const RobotModel& model, std::string_view name) {
+std::optional<std::size_t> findJoint(const RobotDescription& model, std::string_view name) {
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     if (model.joints[j].name == name) return j;
   return std::nullopt;

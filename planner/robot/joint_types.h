@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 
 namespace corridor {
 
@@ -29,6 +29,6 @@ bool isPoseJoint(JointType type);
 bool hasOwnValue(const JointModel& joint);
 
 /// Returns the index of the joint with this name, or nullopt if the model has no such joint.
-std::optional<std::size_t> findJoint(const RobotModel& model, std::string_view name);
+std::optional<std::size_t> findJoint(const RobotDescription& model, std::string_view name);
 
 }  // namespace corridor

@@ -184,7 +184,7 @@ JointModel modelOf(const PartsJoint& joint,
 
 }  // namespace
 
-std::optional<RobotModel> makeRobot(RobotParts parts, std::vector<Fault>& faults) {
+std::optional<RobotDescription> makeRobot(RobotParts parts, std::vector<Fault>& faults) {
   RobotFaults found(robotLabel(parts.name));
   std::vector<Note> notes;
   const UrdfOutline outline = PartsCheck(parts, found).outline();
@@ -193,7 +193,7 @@ std::optional<RobotModel> makeRobot(RobotParts parts, std::vector<Fault>& faults
   const bool sound = found.sound();
   for (Fault& fault : found.takeFaults()) faults.push_back(std::move(fault));
   if (!sound) return std::nullopt;
-  RobotModel model;
+  RobotDescription model;
   model.name = parts.name;
   model.notes = std::move(notes);
   std::unordered_map<std::string, std::size_t> links;

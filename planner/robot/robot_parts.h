@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 
 namespace corridor {
 
@@ -42,6 +42,6 @@ struct RobotParts {
 /// finite; illegal primitives; an axis of length 0; limits that are missing, in the wrong order, or
 /// given to a joint that has no limits; mimics that form a cycle, that follow an unknown joint, or
 /// that would make a joint jump.
-std::optional<RobotModel> makeRobot(RobotParts parts, std::vector<Fault>& faults);
+std::optional<RobotDescription> makeRobot(RobotParts parts, std::vector<Fault>& faults);
 
 }  // namespace corridor

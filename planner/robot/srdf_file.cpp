@@ -59,7 +59,7 @@ bool isTooLarge(XmlFile& file, std::size_t links) {
 /// only if all <enable_collisions> can be read.
 class PairReader {
  public:
-  PairReader(XmlFile& file, SrdfNames& names, RobotModel& model)
+  PairReader(XmlFile& file, SrdfNames& names, RobotDescription& model)
       : root_(*file.root()), file_(file), names_(names), model_(model) {
     for (const AllowedPair& pair : model.allowed) allowed_.insert(pairOf(pair.a, pair.b));
   }
@@ -127,14 +127,14 @@ class PairReader {
   Element& root_;
   XmlFile& file_;
   SrdfNames& names_;
-  RobotModel& model_;
+  RobotDescription& model_;
   std::set<Pair> allowed_;
   UnknownNames unknown_;
 };
 
 /// Reads the virtual joints. A note names each planar or floating virtual joint, unless the URDF
 /// has such a joint above the same link.
-void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotModel& model) {
+void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotDescription& model) {
   forEach(*file.root(), "virtual_joint", [&](Element& element) {
     const char* const name = element.Attribute("name");
     if (!name) return;
@@ -158,7 +158,7 @@ void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotModel& model) {
 
 /// Reads the file. Elements that can't be read become notes, not faults, because an SRDF only adds
 /// to the URDF: a group or state is needed only if the problem names it.
-void readAll(XmlFile& file, RobotModel& model) {
+void readAll(XmlFile& file, RobotDescription& model) {
   Element& root = *file.root();
   if (isTooLarge(file, model.links.size())) return;
   const std::size_t before = model.notes.size();
@@ -187,13 +187,14 @@ void readAll(XmlFile& file, RobotModel& model) {
     const auto joint = names.findJoint(element, "name", "", passive);
     if (!joint) return;
     if (passiveJoints.empty()) firstPassive = element.GetLineNum();
+    model.joints[*joint].passive = true;
     passiveJoints.push_back(model.joints[*joint].name);
   });
   if (!passiveJoints.empty())
     model.notes.push_back(
         {file.at(firstPassive,
-                 "<passive_joint> has no effect here; these joints are planned for "
-                 "or held like others: " +
+                 "<passive_joint>: these joints are held, unless joints names them or they mimic "
+                 "others: " +
                      joinedFirst(passiveJoints)),
          NoteWeight::motion});
   names.note(passive, "passive joint is not in the URDF: ", "passive joints are not in the URDF: ",
@@ -207,8 +208,8 @@ void readAll(XmlFile& file, RobotModel& model) {
 
 }  // namespace
 
-void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
-              const std::vector<std::string>& xacro) {
+void readSrdf(const std::filesystem::path& file, RobotDescription& model,
+              std::vector<Fault>& faults, const std::vector<std::string>& xacro) {
   XmlFile xml(file, "a robot's groups and pairs (SRDF)", xacro);
   if (!xml.expanded().empty()) model.expanded[file] = xml.expanded();
   if (xml.root()) readAll(xml, model);

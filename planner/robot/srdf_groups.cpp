@@ -25,7 +25,7 @@ struct Group {
 /// Reads the groups and named states of an SRDF into a model.
 class GroupReader {
  public:
-  GroupReader(XmlFile& file, SrdfNames& names, RobotModel& model)
+  GroupReader(XmlFile& file, SrdfNames& names, RobotDescription& model)
       : file_(file), names_(names), model_(model), parentJoint_(model.links.size(), kNoIndex) {
     for (std::size_t j = 0; j < model.joints.size(); ++j) parentJoint_[model.joints[j].child] = j;
   }
@@ -297,7 +297,7 @@ class GroupReader {
 
   XmlFile& file_;
   SrdfNames& names_;
-  RobotModel& model_;
+  RobotDescription& model_;
   std::vector<std::size_t> parentJoint_;  // for each link
   NameIndex groupNames_;
   std::vector<Group> groups_;
@@ -308,7 +308,7 @@ class GroupReader {
 
 }  // namespace
 
-void readSrdfGroups(XmlFile& file, SrdfNames& names, RobotModel& model) {
+void readSrdfGroups(XmlFile& file, SrdfNames& names, RobotDescription& model) {
   GroupReader(file, names, model).read();
 }
 

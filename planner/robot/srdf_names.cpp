@@ -21,7 +21,7 @@ void UnknownNames::addName(const std::string& name) {
   if (seen_.insert(name).second) names_.push_back(name);
 }
 
-SrdfNames::SrdfNames(XmlFile& file, const RobotModel& model) : file_(file) {
+SrdfNames::SrdfNames(XmlFile& file, const RobotDescription& model) : file_(file) {
   for (const LinkModel& link : model.links) links_.add(link.name);
   for (const JointModel& joint : model.joints) joints_.add(joint.name);
 }

@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 #include "planner/robot/xml_file.h"
 
 /// Internal to readSrdf(): finds the links and joints that an SRDF names.
@@ -56,7 +56,7 @@ class UnknownNames {
 /// Finds the links and joints of a robot by the names in an SRDF, and counts unknown names.
 class SrdfNames {
  public:
-  SrdfNames(XmlFile& file, const RobotModel& model);
+  SrdfNames(XmlFile& file, const RobotDescription& model);
 
   const NameIndex& links() const { return links_; }
   const NameIndex& joints() const { return joints_; }

@@ -9,12 +9,14 @@
 #include <unordered_map>
 #include <urdf_model/model.h>
 
+#include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/robot/joint_types.h"
 #include "planner/robot/rpy.h"
 #include "planner/robot/urdf_outline.h"
 #include "planner/robot/urdfdom.h"
+#include "planner/robot/xacro.h"
 
 namespace corridor {
 namespace {
@@ -41,13 +43,14 @@ RigidPose poseOf(const urdf::Pose& pose, const Vec3& rpy) {
   return {Vec3(pose.position.x, pose.position.y, pose.position.z), quaternionFromRpy(rpy)};
 }
 
-std::optional<Primitive> primitiveOf(const urdf::Geometry& geometry) {
+std::optional<Primitive> primitiveOf(const urdf::Geometry& geometry, bool isCapsule) {
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry))
     return Box{Vec3(box->dim.x, box->dim.y, box->dim.z)};
   if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry))
     return Sphere{sphere->radius};
-  if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry))
-    return Cylinder{cylinder->radius, cylinder->length};
+  const auto* const cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry);
+  if (cylinder && isCapsule) return Capsule{cylinder->radius, cylinder->length};
+  if (cylinder) return Cylinder{cylinder->radius, cylinder->length};
   return std::nullopt;
 }
 
@@ -79,8 +82,8 @@ class UrdfBuilder {
 
   /// @param order  the outline's joints in the tree's order.
   /// @param mimics for each of the outline's joints.
-  RobotModel build(const std::vector<std::size_t>& order,
-                   const std::vector<std::optional<Mimic>>& mimics) {
+  RobotDescription build(const std::vector<std::size_t>& order,
+                         const std::vector<std::optional<Mimic>>& mimics) {
     model_.name = model_.urdfName = outline_.name;
     for (std::size_t i = 0; i < outline_.links.size(); ++i) {
       linkIndex_[outline_.links[i].name] = i;
@@ -118,7 +121,7 @@ class UrdfBuilder {
       shape.mesh = meshAt(outline.mesh, Vec3(mesh->scale.x, mesh->scale.y, mesh->scale.z), X);
       for (const Vec3& vertex : shape.mesh->mesh.vertices) finite &= vertex.allFinite();
     } else {
-      shape.primitive = primitiveOf(*source.geometry);
+      shape.primitive = primitiveOf(*source.geometry, outline.isCapsule);
       shape.parts.push_back(placed(*shape.primitive, X));
       shape.solid = true;
       for (const Vec3& point : shape.parts.front().points) finite &= point.allFinite();
@@ -208,7 +211,7 @@ class UrdfBuilder {
   const urdf::ModelInterface& urdf_;
   const MeshStore& meshes_;
   XmlFile& file_;
-  RobotModel model_;
+  RobotDescription model_;
   std::unordered_map<std::string, std::size_t> linkIndex_;
   /// The meshes that `meshAt` made, by file and by the numbers of scale and placement.
   std::map<std::pair<std::filesystem::path, std::array<double, 15>>,
@@ -218,14 +221,31 @@ class UrdfBuilder {
 
 }  // namespace
 
-std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
-                                   std::vector<Fault>& faults,
-                                   std::vector<std::filesystem::path>& files,
-                                   std::vector<Note>* notesOfFaulty) {
+bool isUrdf(const std::filesystem::path& file) {
+  const std::string extension = lowered(file.extension().string());
+  if (extension == ".urdf" || isXacro(file)) return true;
+  if ((!extension.empty() && extension != ".xml") || !whyNotOrdinaryFile(file).empty())
+    return false;
+  std::string text;
+  try {
+    text = readTextFile(file, "a robot (URDF)");
+  } catch (const InputError&) {  // whoever reads the file reports it
+    return false;
+  }
+  std::size_t at = text.find('<');
+  while (at != text.npos && at + 1 < text.size() && (text[at + 1] == '?' || text[at + 1] == '!'))
+    at = text.find('<', text.compare(at, 4, "<!--") == 0 ? text.find("-->", at) : at + 1);
+  return at != text.npos && text.compare(at, 6, "<robot") == 0;
+}
+
+std::optional<RobotDescription> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
+                                         std::vector<Fault>& faults,
+                                         std::vector<std::filesystem::path>& files,
+                                         std::vector<Note>* notesOfFaulty) {
   files.push_back(file);
   XmlFile xml(file, "a robot (URDF)", rules.xacro);
   MeshStore meshes(file, rules, files);
-  std::optional<RobotModel> model;
+  std::optional<RobotDescription> model;
   std::vector<Note> notes;
   if (XmlFile::Element* const root = xml.root()) {
     const UrdfOutline outline = readUrdfOutline(xml, rules, meshes, notes);

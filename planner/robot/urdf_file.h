@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision/core/error.h"
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 
 namespace corridor {
 
@@ -37,6 +37,10 @@ struct UrdfRules {
   std::vector<std::string> xacro = {};  ///< arguments for a .xacro file: "prefix:=left_"
 };
 
+/// Returns whether a file is a URDF: one whose name ends in .urdf or .xacro, in capitals or not, or
+/// one whose name ends in .xml, or has no extension, and whose first element is <robot>.
+bool isUrdf(const std::filesystem::path& file);
+
 /// Reads a URDF with its collision geometry. urdfdom parses the file; this function also reports
 /// faults that urdfdom accepts.
 ///
@@ -45,10 +49,10 @@ struct UrdfRules {
 /// first named.
 /// @param notesOfFaulty receives the notes if the result is nullopt; otherwise the notes are in the
 /// model.
-std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
-                                   std::vector<Fault>& faults,
-                                   std::vector<std::filesystem::path>& files,
-                                   std::vector<Note>* notesOfFaulty = nullptr);
+std::optional<RobotDescription> readUrdf(const std::filesystem::path& file, const UrdfRules& rules,
+                                         std::vector<Fault>& faults,
+                                         std::vector<std::filesystem::path>& files,
+                                         std::vector<Note>* notesOfFaulty = nullptr);
 
 /// Reads an SRDF into `model`: groups (joints, links, chains, subgroups), named states, and
 /// disabled collisions with their reasons. End effectors are ignored. Virtual joints are not used;
@@ -60,7 +64,7 @@ std::optional<RobotModel> readUrdf(const std::filesystem::path& file, const Urdf
 /// that can't be used is kept with the reason (`unusable`); it is a fault only in a problem that
 /// names it.
 /// @param xacro arguments for a .xacro file.
-void readSrdf(const std::filesystem::path& file, RobotModel& model, std::vector<Fault>& faults,
-              const std::vector<std::string>& xacro = {});
+void readSrdf(const std::filesystem::path& file, RobotDescription& model,
+              std::vector<Fault>& faults, const std::vector<std::string>& xacro = {});
 
 }  // namespace corridor

@@ -1,8 +1,10 @@
 #include "planner/robot/urdf_outline.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
+#include "collision/core/decimal_number.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/mesh_limits.h"
@@ -45,7 +47,7 @@ void checkMesh(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& 
 void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision& collision,
                 const std::string& owner, std::vector<Note>& notes) {
   const std::string kind = shape.Name();
-  if (kind == "box" || kind == "sphere" || kind == "cylinder")
+  if (kind == "box" || kind == "sphere" || kind == "cylinder" || kind == "capsule")
     file.checkLeaf(shape,
                    kind == "box"      ? std::vector<std::string>{"size"}
                    : kind == "sphere" ? std::vector<std::string>{"radius"}
@@ -53,19 +55,20 @@ void checkShape(XmlFile& file, Element& shape, MeshStore& meshes, UrdfCollision&
                    owner, notes);
   if (kind == "box") return checkSize(file, shape, "size", 3, owner);
   if (kind == "sphere") return checkSize(file, shape, "radius", 1, owner);
-  if (kind == "cylinder") {
+  if (kind == "cylinder" || kind == "capsule") {
     checkSize(file, shape, "radius", 1, owner);
-    return checkSize(file, shape, "length", 1, owner);
+    checkSize(file, shape, "length", 1, owner);
+    collision.isCapsule = kind == "capsule";
+    if (collision.isCapsule) shape.SetName("cylinder");
+    return;
   }
   if (kind == "mesh") return checkMesh(file, shape, meshes, collision, owner, notes);
-  const std::vector<std::string> known{"box", "cylinder", "sphere", "mesh"};
+  const std::vector<std::string> known{"box", "cylinder", "capsule", "sphere", "mesh"};
   const auto near = mostSimilar(kind, known);
   file.fault(shape.GetLineNum(),
              owner + ": unknown geometry <" + kind + ">" +
-                 (kind == "capsule" ? "; a capsule is a <cylinder> and two <sphere>, each in a "
-                                      "<collision> of its own"
-                  : near            ? " (did you mean <" + *near + ">?)"
-                                    : "; <box>, <cylinder>, <sphere> or <mesh> is needed"));
+                 (near ? " (did you mean <" + *near + ">?)"
+                       : "; <box>, <cylinder>, <capsule>, <sphere> or <mesh> is needed"));
 }
 
 /// Reads <origin>, and checks its position, which urdfdom reads.
@@ -171,19 +174,12 @@ void checkAxis(XmlFile& file, Element& joint, std::optional<JointType> type,
                owner + ": the axis is zero; a direction is needed, such as xyz=\"0 0 1\"");
 }
 
-/// Reads <limit>. Adds the element and its attributes effort and velocity where they are missing,
-/// because urdfdom requires them; Corridor does not use effort. resolveMimics() checks the range.
+/// Reads <limit>. Corridor does not use effort. resolveMimics() checks the range.
 std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<JointType> type,
                                    const std::string& owner, std::vector<Note>& notes) {
   const bool ranged = type == JointType::revolute || type == JointType::prismatic;
   Element* const element = file.child(joint, "limit", owner);
-  if (!element) {
-    if (!ranged) return std::nullopt;
-    Element* const added = joint.InsertNewChildElement("limit");
-    added->SetAttribute("effort", "0");
-    added->SetAttribute("velocity", "0");
-    return std::nullopt;
-  }
+  if (!element) return std::nullopt;
   UrdfLimit limit;
   limit.line = element->GetLineNum();
   const auto read = [&](const char* name) -> std::optional<double> {
@@ -193,13 +189,19 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
   };
   limit.lower = read("lower");
   limit.upper = read("upper");
-  limit.velocity = read("velocity");
+  const char* const velocity = element->Attribute("velocity");
+  const bool isUnlimited =
+      velocity && decimalNumber(velocity) == std::numeric_limits<double>::infinity();
+  if (!isUnlimited) limit.velocity = read("velocity");
+  if (limit.velocity.value_or(0) < 0)
+    file.fault(element->FindAttribute("velocity")->GetLineNum(),
+               owner + ": its velocity must not be below 0, but is " + velocity);
   std::vector<std::string> missing;
   for (const char* name : {"effort", "velocity"})
-    if (!(name == std::string_view("velocity") ? limit.velocity : read(name))) {
-      missing.push_back(name);
-      element->SetAttribute(name, "0");
-    }
+    if (!element->FindAttribute(name)) missing.push_back(name);
+  if (isUnlimited)
+    notes.push_back(
+        {file.at(limit.line, owner + ": its velocity is not limited (" + velocity + ")")});
   if (!missing.empty())
     notes.push_back({file.at(limit.line, owner + ": <limit> has no " + joined(missing))});
   if (ranged || type == JointType::continuous)
@@ -380,6 +382,10 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
   std::vector<std::string> visible, soft;  // names for the notes
   outline.name = file.text(root, "name", "").value_or("");
   file.checkAttributes(root, {"name", "version"}, owned("robot", outline.name), notes);
+  const std::string version = root.Attribute("version") ? root.Attribute("version") : "";
+  if (!version.empty() && version != "1" && !version.starts_with("1."))
+    file.fault(root.GetLineNum(), "URDF of version " + quotedWord(version) +
+                                      " is not known; versions 1.0 to 1.2 are read");
   file.checkChildren(root, {"link", "joint"},
                      {"material", "transmission", "gazebo", "sensor", "ros2_control"},
                      owned("robot", outline.name), notes);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/robot/mesh_store.h"
-#include "planner/robot/robot_model.h"
+#include "planner/robot/robot_description.h"
 #include "planner/robot/xml_file.h"
 
 /// The elements of a URDF that are checked and read before urdfdom parses it. Internal: users of
@@ -16,6 +16,7 @@ namespace corridor {
 struct UrdfCollision {
   Vec3 rpy = Vec3::Zero();     ///< rotation of its origin; urdfdom reads the position
   std::filesystem::path mesh;  ///< empty: the shape is not a mesh
+  bool isCapsule = false;      ///< urdfdom, which does not know capsules, reads it as a cylinder
   int line = 0;
 };
 
@@ -57,8 +58,8 @@ struct UrdfOutline {
 };
 
 /// Reads the elements, and the mesh files that they name. Also changes the XML for urdfdom: numbers
-/// are rewritten in plain decimals. If visuals collide, the <visual> of a link without <collision>
-/// becomes a <collision>. @pre file.root() is not null.
+/// are rewritten in plain decimals, and capsules become cylinders. If visuals collide, the <visual>
+/// of a link without <collision> becomes a <collision>. @pre file.root() is not null.
 UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& meshes,
                             std::vector<Note>& notes);
 
@@ -81,7 +82,7 @@ std::vector<std::optional<Mimic>> resolveMimics(const UrdfOutline& outline, Robo
 /// the rules of mimics and the root, and allows adjacent links to touch.
 /// @param order, mimics as `checkUrdfTree` and `resolveMimics` return them.
 void finishRobot(const std::vector<std::size_t>& order,
-                 const std::vector<std::optional<Mimic>>& mimics, RobotModel& model);
+                 const std::vector<std::optional<Mimic>>& mimics, RobotDescription& model);
 
 /// Returns the axis scaled by a power of two, so that its largest component is in [1, 2). Then the
 /// squares of the components do not overflow, and the sum of the squares does not underflow. The

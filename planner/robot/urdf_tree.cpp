@@ -149,7 +149,7 @@ Vec3 scaledAxis(const Vec3& axis) {
 }
 
 void finishRobot(const std::vector<std::size_t>& order,
-                 const std::vector<std::optional<Mimic>>& mimics, RobotModel& model) {
+                 const std::vector<std::optional<Mimic>>& mimics, RobotDescription& model) {
   std::vector<bool> hasParent(model.links.size(), false);
   std::vector<std::size_t> place(order.size());  // for each outline joint, its index in the model
   for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;

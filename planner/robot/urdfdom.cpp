@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <console_bridge/console.h>
 #include <exception>
+#include <initializer_list>
 #include <mutex>
+#include <string_view>
 #include <urdf_parser/urdf_parser.h>
 
 namespace corridor {
@@ -40,11 +42,31 @@ class ErrorCatcher final : private console_bridge::OutputHandler {
   console_bridge::LogLevel levelBefore_;
 };
 
-void removeAll(XmlFile::Element& parent, const char* name) {
-  for (XmlFile::Element* child = parent.FirstChildElement(name); child;) {
-    XmlFile::Element* const next = child->NextSiblingElement(name);
-    parent.DeleteChild(child);
+using Element = XmlFile::Element;
+
+/// Removes the children of other names.
+void keepOnly(Element& parent, std::initializer_list<std::string_view> names) {
+  for (Element* child = parent.FirstChildElement(); child;) {
+    Element* const next = child->NextSiblingElement();
+    if (std::find(names.begin(), names.end(), child->Name()) == names.end())
+      parent.DeleteChild(child);
     child = next;
+  }
+}
+
+/// Keeps what Corridor takes from urdfdom: sizes of shapes, positions and axes. The rest was read
+/// before, and urdfdom would refuse some of it, such as masses and efforts that are missing.
+void simplify(Element& robot) {
+  robot.DeleteAttribute("version");
+  keepOnly(robot, {"link", "joint"});
+  for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
+    keepOnly(*link, {"collision"});
+  for (auto* joint = robot.FirstChildElement("joint"); joint;
+       joint = joint->NextSiblingElement("joint")) {
+    keepOnly(*joint, {"origin", "parent", "child", "axis"});
+    Element* const limit = joint->InsertNewChildElement("limit");  // urdfdom requires it
+    limit->SetAttribute("effort", "0");
+    limit->SetAttribute("velocity", "0");
   }
 }
 
@@ -59,9 +81,7 @@ std::string urdfdomName(std::string name) {
 
 urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,
                                              std::vector<std::string>& errors) {
-  removeAll(robot, "material");
-  for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
-    removeAll(*link, "visual");
+  simplify(robot);
   tinyxml2::XMLPrinter text;
   robot.Accept(&text);
   // console_bridge has one message handler for the whole program, so one thread at a time may

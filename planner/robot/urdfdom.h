@@ -9,9 +9,9 @@
 /// Internal: this header includes urdfdom's headers, which users of the library don't need.
 namespace corridor {
 
-/// Parses a robot with urdfdom. First removes visuals and materials from `robot`, since Corridor
-/// does not need them. Returns nullptr if urdfdom prints an error; the errors are appended to
-/// `errors`.
+/// Parses a robot with urdfdom. First removes from `robot` all but the shapes, origins and axes,
+/// since Corridor takes nothing else from urdfdom. Returns nullptr if urdfdom prints an error; the
+/// errors are appended to `errors`.
 ///
 /// Threads take turns, because urdfdom prints through console_bridge, which is global.
 urdf::ModelInterfaceSharedPtr parseByUrdfdom(XmlFile::Element& robot,

@@ -8,6 +8,7 @@
 #include "collision/core/external_program.h"
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
@@ -27,7 +28,7 @@ std::string lastLines(const std::string& text) {
 }  // namespace
 
 bool isXacro(const std::filesystem::path& file) {
-  return file.extension() == ".xacro";
+  return lowered(file.extension().string()) == ".xacro";
 }
 
 std::string expandXacro(const std::filesystem::path& file,

@@ -8,6 +8,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/core/text_encoding.h"
 #include "planner/robot/xacro.h"
 
 namespace corridor {
@@ -172,7 +173,7 @@ void XmlFile::open(const std::string& what, const std::vector<std::string>& xacr
       text = expanded_ = expandXacro(path_, xacro);
       if (!text.empty()) setLabel(path_.string() + ", expanded by xacro");
     } else {
-      text = readTextFile(path_, what);
+      text = xmlAsUtf8(readTextFile(path_, what), path_.string());
     }
   } catch (const InputError& error) {
     return setFaults(error.faults());

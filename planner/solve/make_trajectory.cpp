@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "planner/solve/shorten_curve.h"
 #include "planner/solve/smooth_path.h"
@@ -39,8 +40,8 @@ JointLimits reduced(JointLimits limits, double factor) {
   return limits;
 }
 
-std::string textOf(const std::vector<TimedRow>& timed, const ConfigurationSpace& space,
-                   RowInterpolation between, TrajectoryFileKind kind) {
+std::string textOf(const std::vector<TimedRow>& timed, const Model& model, RowInterpolation between,
+                   TrajectoryFileKind kind) {
   TrajectoryRows rows;
   rows.timed = true;
   rows.hasVelocities = between != RowInterpolation::linear;
@@ -55,7 +56,7 @@ std::string textOf(const std::vector<TimedRow>& timed, const ConfigurationSpace&
     rows.rows.push_back(
         {0, time, time == row.time ? row.position : position, row.velocity, row.acceleration});
   }
-  return kind == TrajectoryFileKind::csv ? csvText(rows, space) : messageText(rows, space);
+  return kind == TrajectoryFileKind::csv ? csvText(rows, model) : messageText(rows, model.space);
 }
 
 bool limitsJerk(const JointLimits& limits) {
@@ -120,8 +121,29 @@ void prove(const Checker& checker, MadeTrajectory& made) {
   }
 }
 
-/// Makes the rows and the text, and proves the curve that the text describes. `limits` are those of
-/// the time law.
+/// Makes the text of rows, and proves the curve that the text describes.
+void proveText(const Problem& problem, const Checker& checker, const std::vector<TimedRow>& rows,
+               TrajectoryFileKind kind, MadeTrajectory& made) {
+  const ConfigurationSpace& space = problem.model.space;
+  try {
+    made.text = textOf(rows, problem.model, made.between, kind);
+    const TrajectoryRows read = readTrajectory("the trajectory", made.text, problem.model);
+    made.rows = read.rows.size();
+    made.duration = read.rows.back().time - read.rows.front().time;
+    made.curve = curveOf(read, space, made.between);
+    made.ratios = limitsOfRows(read, made.between, space, problem.task.limits, problem.model.tree);
+  } catch (const InputError& error) {  // rows of a message that are less than 1 ns apart
+    made.fault = error.what();
+    return;
+  } catch (const std::invalid_argument& error) {  // names of joints
+    made.fault = error.what();
+    return;
+  }
+  prove(checker, made);
+}
+
+/// Makes the rows along a curve and their text, and proves the curve that the text describes.
+/// `limits` are those of the time law.
 void makeText(const Problem& problem, const Checker& checker, const LawfulCurve& curve,
               const JointLimits& limits, TrajectoryFileKind kind, double deviation,
               MadeTrajectory& made) {
@@ -137,18 +159,28 @@ void makeText(const Problem& problem, const Checker& checker, const LawfulCurve&
   made.fault = emission.fault;
   if (!made.fault.empty()) return;
   made.stretch = emission.stretch;
-  made.text = textOf(emission.rows, space, made.between, kind);
-  try {
-    const TrajectoryRows read = readTrajectory("the trajectory", made.text, problem.model);
-    made.rows = read.rows.size();
-    made.duration = read.rows.back().time - read.rows.front().time;
-    made.curve = curveOf(read, space, made.between);
-    made.ratios = limitsOfRows(read, made.between, space, problem.task.limits, tree);
-  } catch (const InputError& error) {  // rows of a message that are less than 1 ns apart
-    made.fault = error.what();
-    return;
+  proveText(problem, checker, emission.rows, kind, made);
+}
+
+/// A path of at most this length, rad or m, is one on which nothing moves: no encoder resolves it,
+/// and the time law along it has no digits left.
+constexpr double kNoLength = 1e-9;
+
+/// Returns two rows, at rest at the first and at the last state of a path on which nothing moves.
+/// The time from one to the other is 1 ms, a controller's period, or longer if limits need it.
+MadeTrajectory standing(const Problem& problem, const Checker& checker, const Path& path,
+                        TrajectoryFileKind kind) {
+  MadeTrajectory made;
+  made.between =
+      limitsJerk(problem.task.limits) ? RowInterpolation::quintic : RowInterpolation::cubic;
+  const Configuration rest = Configuration::Zero(path.front().size());
+  double seconds = 1e-3;
+  for (int attempt = 0; attempt < 30; ++attempt, seconds *= 2) {
+    proveText(problem, checker, {{0, path.front(), rest, rest}, {seconds, path.back(), rest, rest}},
+              kind, made);
+    if (made.isGood() || !made.fault.empty()) break;
   }
-  prove(checker, made);
+  return made;
 }
 
 /// Makes texts along a curve until one is proved and keeps the limits. Completes and returns
@@ -192,10 +224,11 @@ double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>&
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
                               TrajectoryFileKind kind, const std::function<bool()>& stop) {
   const ConfigurationSpace& space = problem.model.space;
+  const PathLength length = lengthOf(space, path);
+  if (std::max(length.metres, length.radians) <= kNoLength)
+    return standing(problem, checker, path, kind);
   MadeTrajectory begun;
   LawfulCurve smooth = smoothCurve(problem, checker, path, stop, begun);
-  const PathLength length = lengthOf(space, path);
-  if (length.metres == 0 && length.radians == 0) begun.fault = "the path does not move";
   MadeTrajectory made =
       provedAlong(problem, checker, std::move(smooth), kind, kTrajectoryAttempts, begun);
   if (begun.rounded + begun.replaced == 0 || !begun.fault.empty()) return made;

@@ -30,7 +30,7 @@ struct SolveOptions {
   /// When this becomes true, solving ends soon, without a result.
   const std::atomic<bool>* interrupted = nullptr;
   /// Whether to find out what the proofs leave out (checker/left_out.h), and to make notes on pairs
-  /// of bodies that touch in every state, or are within the margin (checker/still_pairs.h).
+  /// of bodies that touch in every state, or are within the margin (checker/fixed_pairs.h).
   bool noteLeftOut = false;
   /// For messages: the origins of values that were not read from the problem's file, by key, such
   /// as "planner.name" → "--planner". The keys are planner.name, planner.params.KEY, start and

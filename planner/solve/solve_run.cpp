@@ -17,9 +17,9 @@
 #include "collision/core/fault_list.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/checker/enclosed_bodies.h"
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
-#include "planner/checker/still_pairs.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/ompl_goal.h"
@@ -199,7 +199,7 @@ void SolveRun::setUpEnds() {
   definition_->addStartState(start);
   definition_->setGoal(std::make_shared<OmplGoal>(si_, problem_, goalSamples_));
   if (!options_.noteLeftOut) return;
-  report_.notes = notesOnStillPairs(checker_, start_);
+  report_.notes = notesOnStart(checker_, start_);
   report_.leftOut = leftOutOf(checker_);
 }
 

@@ -270,7 +270,7 @@ PathProblem plainProblem(const Model& model, const Task& task,
   const Required need = requiredBy(task);
   forEachPair(model, need, [&](std::size_t i, std::size_t j, std::string_view why) {
     if (!why.empty() && why != kTestedAtRest) return;
-    std::vector<VerifyPair>& pairs = why.empty() ? plain.pairs : plain.restPairs;
+    std::vector<VerifyPair>& pairs = why.empty() ? plain.pairs : plain.heldPairs;
     for (const std::size_t a : parts[i])
       for (const std::size_t b : parts[j])
         pairs.push_back({a, b, paddingOf(model, task.padding, i, j)});

@@ -59,7 +59,7 @@ std::string firstFinding(const VerifyReport& report);
 /// does not exclude for the task's margin, padding and tube (`requiredBy`), and the task's margin
 /// and tube. Pairs that were proved never in contact are left out only if their proof covers the
 /// task; paths that leave the values for which it holds are then not proved (`provedBox`). Pairs
-/// with only held joints between them are `PathProblem::restPairs`. The model must outlive the
+/// with only held joints between them are `PathProblem::heldPairs`. The model must outlive the
 /// result.
 /// @throws std::invalid_argument if a body without a robot is on a frame that moves.
 /// @param tolerance the checker's tolerance, metres; the verifier uses a tenth of it. Unset: the

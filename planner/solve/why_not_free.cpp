@@ -12,6 +12,7 @@
 #include "collision/core/spelling.h"
 #include "collision/world/body_queries.h"
 #include "planner/model/held_joints.h"
+#include "planner/problem/state_text.h"
 #include "planner/robot/angles.h"
 
 namespace corridor {
@@ -192,22 +193,18 @@ std::optional<NearestFree> nearestFree(const Configuration& q, const Checker& ch
 /// Describes the free configuration that was found, or says that none was. The text has the
 /// values of all joints, so that a user can copy them into the problem, or the position of a pose.
 std::string describedFree(const std::optional<NearestFree>& free, const Configuration& q,
-                          const ConfigurationSpace& space) {
-  if (const CoordinateGroup* pose = onlyPose(space)) {
+                          const Model& model) {
+  if (const CoordinateGroup* pose = onlyPose(model.space)) {
     if (!free) return "no free position was found nearby with this orientation";
     return "the nearest free position found is " + withDigits(free->away) +
            " m away: at: " + position(free->q, *pose, free->digits);
   }
   if (!free) return "no free values were found nearby";
-  const std::vector<std::string> names = space.numberNames();
-  std::string values;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    values += (values.empty() ? "" : ", ") + names[i] + ": " +
-              (free->q[k] == q[k] ? shortest(q[k]) : withDigits(free->q[k], free->digits));
-  }
+  const auto number = [&](Eigen::Index i) {
+    return free->q[i] == q[i] ? shortest(q[i]) : withDigits(free->q[i], free->digits);
+  };
   return "the nearest free values found are at most " + withDigits(free->away) +
-         " rad or m away: {" + values + "}";
+         " rad or m away: " + stateText(model, free->q, number);
 }
 
 /// Returns the distance of two shapes.
@@ -222,7 +219,7 @@ double gapOf(const Checker& checker, const Configuration& q, const Contact& pair
 }
 
 /// Returns the smallest distance of the shapes of two bodies; 0 if they touch.
-double gapOf(const Checker& checker, const Configuration& q, const RestPair& pair) {
+double gapOf(const Checker& checker, const Configuration& q, const HeldPair& pair) {
   double gap = HUGE_VAL;
   for (const Scene::Pair& shapes : checker.scene().pairs())
     if (const auto [a, b] = std::minmax({checker.bodyOf(shapes.a), checker.bodyOf(shapes.b)});
@@ -257,11 +254,11 @@ std::string otherPairs(const Checker& checker, const Configuration& q, const Con
 /// Explains why no state is free (`Checker::notFreeAtRest`). Names a pair that touches, if there is
 /// one.
 std::string whyNeverFree(const Configuration& q, const Checker& checker) {
-  const std::vector<RestPair>& pairs = checker.notFreeAtRest();
+  const std::vector<HeldPair>& pairs = checker.notFreeAtRest();
   std::vector<double> gaps;
-  for (const RestPair& pair : pairs) gaps.push_back(gapOf(checker, q, pair));
+  for (const HeldPair& pair : pairs) gaps.push_back(gapOf(checker, q, pair));
   const auto least = std::min_element(gaps.begin(), gaps.end());
-  const RestPair& pair = pairs[static_cast<std::size_t>(least - gaps.begin())];
+  const HeldPair& pair = pairs[static_cast<std::size_t>(least - gaps.begin())];
   const std::vector<ModelBody>& bodies = checker.model().bodies;
   const double margin = checker.marginOf(pair.a, pair.b);
   const std::string kept = margin > checker.options().margin ? "margin and padding" : "margin";
@@ -338,7 +335,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
   if (contact || !result.pair)
     return "in contact: " + (contact ? described(checker, *contact) : pair) + " touch" +
            (contact ? otherPairs(checker, q, *contact) : "") + "; " +
-           describedFree(nearestFree(q, checker), q, checker.space());
+           describedFree(nearestFree(q, checker), q, checker.model());
   const double margin =
       checker.marginOf(checker.bodyOf(result.pair->bodyA), checker.bodyOf(result.pair->bodyB));
   const std::string kept = margin > options.margin ? "margin and padding" : "margin";
@@ -348,7 +345,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
     const auto [gapText, marginText] = orderedTexts(std::min(gap, margin), margin);
     return "too close: " + pair + " are " + gapText + " m apart; more than the " + kept + " of " +
            marginText + " m is needed" + others + "; " +
-           describedFree(nearestFree(q, checker), q, checker.space());
+           describedFree(nearestFree(q, checker), q, checker.model());
   }
   // `needed` does not include the clearance that the tolerance requires: another message, on the
   // tolerance, covers that.

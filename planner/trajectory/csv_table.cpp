@@ -11,12 +11,8 @@
 namespace corridor {
 namespace {
 
-enum class Quantity { time, position, velocity, acceleration, ignored };
-
-struct Column {
-  Quantity quantity = Quantity::position;
-  std::string joint;
-};
+using Quantity = ColumnQuantity;
+using Column = TableColumn;
 
 /// The words in a column's name that say which quantity the column has, as in pan_velocity,
 /// pan.vel, vel_pan, velocity/pan.
@@ -34,8 +30,9 @@ constexpr std::array kQuantityWords{QuantityWord{"position", Quantity::position}
                                     QuantityWord{"effort", Quantity::ignored},
                                     QuantityWord{"torque", Quantity::ignored}};
 
-/// Returns the meaning of a column's name. If the joint is unknown, the quantity is position.
-Column columnOf(const std::string& name, const JointNames& names) {
+}  // namespace
+
+TableColumn columnOf(const std::string& name, const JointNames& names) {
   const auto isJoint = [&](const std::string& joint) {
     return names.find(joint) || !names.ambiguous(joint).empty();
   };
@@ -57,6 +54,8 @@ Column columnOf(const std::string& name, const JointNames& names) {
   }
   return {Quantity::position, name};
 }
+
+namespace {
 
 bool isKnown(const std::string& name, const JointNames& names) {
   const Column column = columnOf(name, names);

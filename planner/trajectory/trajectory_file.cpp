@@ -8,6 +8,7 @@
 #include "collision/core/read_file.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "collision/core/text_encoding.h"
 #include "planner/trajectory/row_faults.h"
 #include "planner/trajectory/trajectory_table.h"
 #include "planner/trajectory/unplanned_columns.h"
@@ -184,7 +185,7 @@ class RowMaker {
 }  // namespace
 
 TrajectoryFormat trajectoryFormatOf(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte-order mark
+  text = withoutByteOrderMark(text);
   std::string_view rest = text;
   if (!isYamlLine(nextLine(rest))) return TrajectoryFormat::rows;
   if (text.substr(0, 4096).find("corridor-solution") != std::string_view::npos)
@@ -196,10 +197,11 @@ TrajectoryFormat trajectoryFormatOf(std::string_view text) {
 }
 
 std::string readMotionText(const std::filesystem::path& file, const std::string& what) {
-  if (file != "-") return readTextFile(file, what);
+  std::error_code none;
+  if (file != "-" && !std::filesystem::is_fifo(file, none)) return readTextFile(file, what);
   std::string text = readTextStream(file, what);
   if (text.size() > kMostDocumentBytes)
-    throw InputError(Fault{"-", 0, "is larger than 256 MiB, the limit for " + what});
+    throw InputError(Fault{file.string(), 0, "is larger than 256 MiB, the limit for " + what});
   return text;
 }
 

@@ -84,4 +84,15 @@ TrajectoryTable readCsvTable(const std::string& file, const std::string& text,
 /// Reads a JointTrajectory of ROS.
 TrajectoryTable readMessageTable(const std::string& file, const std::string& text);
 
+/// The quantity of a column of a table.
+enum class ColumnQuantity { time, position, velocity, acceleration, ignored };
+
+/// What a column's name means.
+struct TableColumn {
+  ColumnQuantity quantity = ColumnQuantity::position;
+  std::string joint;
+};
+/// Returns the meaning of a column's name. If the joint is unknown, the quantity is position.
+TableColumn columnOf(const std::string& name, const JointNames& names);
+
 }  // namespace corridor

@@ -1,11 +1,18 @@
 #include "planner/trajectory/trajectory_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include "collision/core/csv_text.h"
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
 #include "planner/problem/text_words.h"
+#include "planner/problem/yaml_reader.h"
+#include "planner/trajectory/trajectory_table.h"
 
 namespace corridor {
 namespace {
@@ -26,6 +33,45 @@ std::vector<Eigen::Index> withVelocities(const ConfigurationSpace& space) {
   return all;
 }
 
+/// Makes the names of columns such that `readCsvTable` reads them as what they are: a joint may be
+/// called "time", or "a_velocity" beside a joint "a".
+class ColumnNames {
+ public:
+  explicit ColumnNames(const Model& model) : names_(model) {}
+
+  std::string time() const {
+    return meaning({ColumnQuantity::time, ""}, {"time", "time_from_start", "t"});
+  }
+  static std::string position(const std::string& joint) { return asWord(joint); }
+  /// @param word "velocity" or "acceleration"
+  std::string of(ColumnQuantity quantity, const std::string& word, const std::string& joint) const {
+    return meaning({quantity, joint}, {joint + "_" + word, word + "/" + joint, joint + "." + word,
+                                       joint + "/" + word, word + "_" + joint, word + "." + joint});
+  }
+
+ private:
+  /// Returns the first of the names that the reader takes for the column.
+  std::string meaning(const TableColumn& column, const std::vector<std::string>& all) const {
+    for (const std::string& name : all) {
+      const TableColumn read = columnOf(name, names_);
+      const bool isTime = column.quantity == ColumnQuantity::time;
+      if (read.quantity == column.quantity && (isTime || read.joint == column.joint))
+        return asWord(name);
+    }
+    throw std::invalid_argument("the names of the joints leave none for the column " +
+                                quotedWord(all.front()) +
+                                "; rename a joint, or write the trajectory as YAML");
+  }
+  static std::string asWord(const std::string& name) {
+    double number = 0;
+    const bool isPlain = name.find_first_of(",;\"# \t\r\n") == name.npos &&
+                         !parseNumber(name, Range::Any, number).empty();
+    return isPlain ? name : inDoubleQuotes(name);
+  }
+
+  JointNames names_;
+};
+
 }  // namespace
 
 bool hasRotation(const ConfigurationSpace& space) {
@@ -38,18 +84,22 @@ double nearestNanosecond(double seconds) {
   return std::round(seconds * kPerSecond) / kPerSecond;
 }
 
-std::string csvText(const TrajectoryRows& rows, const ConfigurationSpace& space) {
+std::string csvText(const TrajectoryRows& rows, const Model& model) {
+  const ConfigurationSpace& space = model.space;
   const std::vector<std::string> names = space.numberNames();
   const std::vector<Eigen::Index> moving = withVelocities(space);
-  std::string text = rows.timed ? "time" : "";
-  const auto add = [&](const std::string& word, bool isFirst) {
-    text += (isFirst ? "" : ",") + word;
+  const ColumnNames columns(model);
+  std::vector<std::string> header;
+  if (rows.timed) header.push_back(columns.time());
+  for (const std::string& name : names) header.push_back(ColumnNames::position(name));
+  const auto add = [&](ColumnQuantity quantity, const char* word) {
+    for (const Eigen::Index i : moving)
+      header.push_back(columns.of(quantity, word, names[static_cast<std::size_t>(i)]));
   };
-  for (std::size_t i = 0; i < names.size(); ++i) add(names[i], i == 0 && !rows.timed);
-  for (const auto& [has, ending] : {std::pair{rows.hasVelocities, "_velocity"},
-                                    std::pair{rows.hasAccelerations, "_acceleration"}})
-    if (has)
-      for (const Eigen::Index i : moving) add(names[static_cast<std::size_t>(i)] + ending, false);
+  if (rows.hasVelocities) add(ColumnQuantity::velocity, "velocity");
+  if (rows.hasAccelerations) add(ColumnQuantity::acceleration, "acceleration");
+  std::string text;
+  for (const std::string& name : header) text += (text.empty() ? "" : ",") + name;
   text += "\n";
   for (const TrajectoryRow& row : rows.rows) {
     text += (rows.timed ? shortest(row.time) + "," : "") + joined(row.positions, ",");

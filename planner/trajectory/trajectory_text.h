@@ -11,8 +11,11 @@ namespace corridor {
 
 /// Returns a CSV text with a header line: `time` if the rows have times, then the names of the
 /// components (`numberNames`), then NAME_velocity and NAME_acceleration, if the rows have them.
-/// Components of rotations have no velocities and accelerations in the text.
-std::string csvText(const TrajectoryRows& rows, const ConfigurationSpace& space);
+/// Names with blanks, commas and the like are in quotes. Where a joint has such a name, a column
+/// gets another that `readTrajectory` takes for it: time_from_start, velocity/NAME. Components of
+/// rotations have no velocities and accelerations in the text.
+/// @throws std::invalid_argument if the names of joints leave no name for a column.
+std::string csvText(const TrajectoryRows& rows, const Model& model);
 
 /// Returns whether a space has a rotation coordinate (a quaternion). A JointTrajectory can't
 /// contain quaternions.

@@ -56,12 +56,12 @@ PairProver::PairProver(const PathProblem& problem) : problem_(problem) {
     body.mesh ? trees_.emplace_back(*body.mesh) : trees_.emplace_back(body.parts);
   }
   for (const VerifyPair& pair : problem.pairs) addPair(pair);
-  for (const VerifyPair& pair : problem.restPairs) {
+  for (const VerifyPair& pair : problem.heldPairs) {
     addPair(pair);
     for (const std::size_t chain : {pairs_.back().chainA, pairs_.back().chainB})
       for (const std::size_t frame : chains_[chain].path)
         if (problem.tree->frames[frame].moves())
-          refuse("a pair of restPairs has a joint that moves between its bodies");
+          refuse("a pair of heldPairs has a joint that moves between its bodies");
   }
   frameStates_.resize(chains_.size());
 }

@@ -70,7 +70,7 @@ class PairProver {
   }
   /// Returns the number of `PathProblem::pairs`. They have the numbers from 0 to pairs() − 1.
   std::size_t pairs() const { return problem_.pairs.size(); }
-  /// Returns the number of all pairs. Those of `PathProblem::restPairs` have the numbers from
+  /// Returns the number of all pairs. Those of `PathProblem::heldPairs` have the numbers from
   /// pairs() on, and may only be passed to the functions below with the first edge.
   std::size_t allPairs() const { return pairs_.size(); }
   /// Returns a finding `refuted` if the edge defines no curve, else nullopt. An edge defines no
@@ -159,11 +159,11 @@ class PairProver {
   std::vector<std::size_t> treeOf_;  // for each body, its tree in `trees_`
   std::vector<KinematicChain> chains_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // key: (base, frame)
-  std::vector<Pair> pairs_;  // those of problem_.pairs, then those of problem_.restPairs
+  std::vector<Pair> pairs_;  // those of problem_.pairs, then those of problem_.heldPairs
   std::vector<EdgeCurve> curves_;
   std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error
   std::vector<std::optional<PathFinding>> noCurve_;  // one per edge
-  std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]; restPairs: only [0][pair]
+  std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]; heldPairs: only [0][pair]
   // Bounds in segments of currentEdge_; the key is {2^depth + index of the segment, pair}.
   std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;
   // For each chain, a time of currentEdge_ and the state of the frame at this time.

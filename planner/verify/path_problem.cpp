@@ -54,7 +54,7 @@ void requireValid(const PathProblem& problem) {
     if (!isFinite(body)) refuse("body " + body.name + " has a number that is not finite");
   for (const Frame& frame : problem.tree->frames)
     if (!isFinite(frame)) refuse("frame " + frame.name + " has a number that is not finite");
-  for (const std::vector<VerifyPair>* pairs : {&problem.pairs, &problem.restPairs})
+  for (const std::vector<VerifyPair>* pairs : {&problem.pairs, &problem.heldPairs})
     for (const VerifyPair& pair : *pairs) {
       if (pair.a >= problem.bodies.size() || pair.b >= problem.bodies.size())
         refuse("a pair names a body that does not exist");

@@ -10,7 +10,7 @@ namespace corridor::verify {
 /// @throws std::invalid_argument "verifyPath: what".
 [[noreturn]] void refuse(const std::string& what);
 
-/// Refuses a problem as verifyPath() states, except pairs of `restPairs` with a joint that moves
+/// Refuses a problem as verifyPath() states, except pairs of `heldPairs` with a joint that moves
 /// between their bodies. @throws std::invalid_argument
 void requireValid(const PathProblem& problem);
 

@@ -125,7 +125,7 @@ class Verifier {
   bool single_;                                                              // a path of one state
   std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;  // each with one pair
   std::map<int, PathFinding> findings_;                                      // key: edge
-  std::vector<PathFinding> restFindings_;                                    // of `restPairs`
+  std::vector<PathFinding> restFindings_;                                    // of `heldPairs`
   std::set<std::pair<std::size_t, std::size_t>> undecided_;                  // (edge, pair)
   Real smallest_ = kInfinity, leastAtStates_ = kInfinity;
   std::uint64_t queries_ = 0;
@@ -197,7 +197,7 @@ void Verifier::testAll(Interval& interval) {
   interval.pairs = std::move(left);
 }
 
-/// Tests the pairs of `restPairs` at the first state. Their bodies are at rest relative to each
+/// Tests the pairs of `heldPairs` at the first state. Their bodies are at rest relative to each
 /// other, so the answer holds for every state. The queries do not count towards the work limit.
 void Verifier::proveAtRest() {
   if (prover_.noCurve(0)) return;  // the path is refuted

@@ -73,7 +73,7 @@ struct PathProblem {
   /// Pairs of bodies that never move relative to each other: no joint that moves is between their
   /// frames. They are tested once, at the first state, and this decides them for every state.
   /// `provenClearance` and `smallestDistanceMet` are about `pairs` only.
-  std::vector<VerifyPair> restPairs;
+  std::vector<VerifyPair> heldPairs;
   /// The values of each number of a configuration, inclusive, for which bodies that are in no pair
   /// are proved apart by other means (planner/model/pair_proofs.h); infinite where it does not
   /// matter. An edge or piece that leaves these values is not proved: it is undecided if it is not
@@ -120,7 +120,7 @@ struct PathFinding {
   PathVerdict verdict = PathVerdict::undecided;
   int edge = 0;  ///< the edge from state `edge` to state `edge` + 1, from 0; or the piece
   double t = 0;  ///< time on the edge, in [0, 1]
-  /// True for a pair of `restPairs`: the fault is the same in every state of the path. `edge` and
+  /// True for a pair of `heldPairs`: the fault is the same in every state of the path. `edge` and
   /// `t` are then 0, and `freeUntil` is not set.
   bool inEveryState = false;
   /// On the first refuted edge, the edge is proved on [0, freeUntil] unless this is 0, and its
@@ -146,13 +146,13 @@ struct PathFinding {
 
 struct PathReport {
   PathVerdict verdict = PathVerdict::proved;
-  /// First the findings of `restPairs`, one for each two names of bodies that are not proved; then
+  /// First the findings of `heldPairs`, one for each two names of bodies that are not proved; then
   /// one for each edge that is not proved, in the order of the edges; at most 100 in all. The first
   /// refutation among the findings about edges is the first refutation by `pairs` (see
   /// PathFinding::freeUntil).
   std::vector<PathFinding> findings;
   int edges = 0;
-  int edgesProved = 0;  ///< 0 if a pair of `restPairs` is not proved
+  int edgesProved = 0;  ///< 0 if a pair of `heldPairs` is not proved
   /// Metres. If the path is proved, the bodies of `pairs` keep at least this distance on every
   /// curve in the tube. If the path is not proved, the value is 0. If no pair is tested, it is
   /// infinite. The value is refined until one of three conditions holds:
@@ -183,7 +183,7 @@ struct PathReport {
 /// or
 ///   a radius is not finite.
 /// - A frame of the tree has a number that is not finite, or a zero quaternion.
-/// - A pair names a body that does not exist, or a pair of `restPairs` has a joint that moves
+/// - A pair names a body that does not exist, or a pair of `heldPairs` has a joint that moves
 /// between its bodies.
 PathReport verifyPath(const PathProblem& problem, const std::vector<Configuration>& states);
 

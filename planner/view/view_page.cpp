@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "planner/checker/checker.h"
+#include "planner/checker/enclosed_bodies.h"
 #include "planner/checker/left_out.h"
 #include "planner/checker/problem_goal.h"
-#include "planner/checker/still_pairs.h"
 #include "planner/model/reach.h"
 #include "planner/view/closest_pairs.h"
 #include "planner/view/curve_plots.h"
@@ -67,7 +67,7 @@ class PageData {
     addEnds();
     addPairs();
     addTrees();
-    std::vector<Note> notes = notesOnStillPairs(checker_, startOf(problem_));
+    std::vector<Note> notes = notesOnStart(checker_, startOf(problem_));
     addAll(problem_.source.notes, notes);
     json_["notes"] = textsOf(notes);
     if (path_) {

@@ -150,11 +150,12 @@ goal: [{at: [2, 0, 0]}, {at: [0, 0, 0]}]
 bounds: {at: [[-3, -3, -3], [3, 3, 3]]}
 planner: {time: 0.2}
 """,
-    "rest.yaml": """format: corridor-problem-1
+    "stuck.yaml": """format: corridor-problem-1
 robot: robot.yaml
 world: {post: {sphere: 0.1, at: [0, 1.5, 0]}}
 start: {shoulder: 0, elbow: 0}
-goal: {shoulder: 0, elbow: 0}
+goal: {shoulder: 0.5, elbow: 0}
+limits: {default: {velocity: 1.0e-300, acceleration: 1.0e-300}}
 """,
     "faulty.yaml": "format: corridor-problem-1\nrobot: none.yaml\n",
     "arm.urdf": ARM,
@@ -198,7 +199,7 @@ def outputs(folder):
     yield report("solve", "arm.yaml", "--trajectory", "arm.csv", "-o", "arm.solution.yaml")
     yield report("solve", ROOT / "problems/two_arms")
     yield report("solve", "hopeless.yaml")
-    yield report("solve", "rest.yaml", "--trajectory", "none.csv")
+    yield report("solve", "stuck.yaml", "--trajectory", "none.csv")
     yield report("solve", "problem.yaml", "faulty.yaml", statuses=(2,))
     yield report("verify", "problem.yaml", "cube.solution.yaml")
     yield report("verify", "hopeless.yaml", "cube.solution.yaml")

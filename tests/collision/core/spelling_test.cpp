@@ -47,6 +47,9 @@ TEST(Spelling, QuotesForMessages) {
 
 TEST(Spelling, ControlCharactersAreReplaced) {
   EXPECT_EQ(withoutControls("Tür\x1b[2J\t\x7f.yaml"), "Tür?[2J??.yaml");
+  EXPECT_EQ(withoutControls("\u009b2J \u202etxt \u2066a\u2069 \u2028b \u00a0 \u200d"),
+            "?2J ?txt ?a? ?b \u00a0 \u200d");
+  EXPECT_EQ(withoutControls("T\xFCr \xE2\x82 \xC0\x80"), "T?r ?? ??") << "not UTF-8";
 }
 
 TEST(QuotedPath, KeepsTheEndOfALongName) {

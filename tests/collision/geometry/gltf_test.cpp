@@ -181,8 +181,7 @@ TEST_F(Gltf, LargeAndSmallTransforms) {
 }
 
 TEST_F(Gltf, ByteOrderMark) {
-  EXPECT_EQ(complaint("a.gltf", "\xEF\xBB\xBF" + gltf()),
-            "a.gltf: begins with a byte-order mark, which glTF doesn't allow; remove it");
+  EXPECT_EQ(complaint("a.gltf", "\xEF\xBB\xBF" + gltf()), "no complaint");
 }
 
 TEST_F(Gltf, VersionsOtherThan2) {

@@ -34,6 +34,22 @@ TEST_F(MeshContent, ObjLinesThatGoOn) {
   EXPECT_EQ(read("a.obj", text).mesh.triangles.size(), 1u);
 }
 
+/// A backslash continues a line only at its end (Wavefront's format, "Line continuation").
+TEST_F(MeshContent, ObjBackslashesWithinALine) {
+  const std::string head = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\n";
+  const auto fault = [&](const std::string& text) { return complaint("a.obj", head + text); };
+  const std::string why = "a backslash continues a line only at its end; something follows it";
+  for (const std::string text : {"f 1 2 3 \\ 4\n\n", "f 1 2 3 \\ 4\n# c\n", "f 1 2 3\\ 4\n",
+                                 "f 1 2 \\ 3\n3\n", "f 1 2 3 \\ \\\n\n"})
+    EXPECT_THAT(fault(text), testing::StartsWith("a.obj:5: " + why)) << text;
+  EXPECT_THAT(fault("v 0 0 \\ 7\n9\nf 1 2 3\n"), HasSubstr(why));
+  EXPECT_EQ(fault("f 1 2 \\ \n3\n"), "no complaint") << "blanks may follow";
+  // A name that ends in a backslash takes the next line with it.
+  EXPECT_THAT(notesOf("a.obj", head + "f 1 2 3\nusemtl C:\\dir\\\nf 1 3 4\n"),
+              ElementsAre("line 7, which begins with f, continues the line above, which ends in a "
+                          "backslash"));
+}
+
 std::string ply(const std::string& element, const std::string& property, const std::string& list) {
   return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
          "property float z\nelement face 1\nproperty list uchar int vertex_indices\n" +

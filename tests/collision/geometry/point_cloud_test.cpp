@@ -191,6 +191,16 @@ TEST_F(PointCloudTest, DecimalCommas) {
             "c.xyz:1: coordinate \"1,5\" is not a number; write decimal numbers such as -1.25e-3");
 }
 
+TEST_F(PointCloudTest, GroupsAndUnnamedColumns) {
+  for (const char* line : {"1 2 3; 4 5 6\n", "1 2 3;4 5 6;\n", "1;2;3 4;5\n", "1,5 2 3; 4 5 6\n"})
+    EXPECT_EQ(complaint("a.xyz", line),
+              "a.xyz:1: semicolons separate groups of numbers; write a line for each point");
+  EXPECT_EQ(complaint("a.xyz", "1;2;3;4 # 5 6\n"), "no complaint");
+  EXPECT_EQ(read("a.xyz", "1 2 3 255 0 0\n").unnamedColumns, 3);
+  EXPECT_EQ(read("a.xyz", "1 2 3 # 7\n").unnamedColumns, 0);
+  EXPECT_EQ(read("a.xyz", "x y z i\n1 2 3 7\n").unnamedColumns, 0);
+}
+
 /// An empty field among the coordinates would shift the later ones.
 TEST_F(PointCloudTest, EmptyFields) {
   const auto empty = [](const std::string& where) {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "planner/checker/checker.h"
+#include "planner/checker/fixed_pairs.h"
 #include "planner/checker/state_validity_checkers.h"
-#include "planner/checker/still_pairs.h"
 #include "planner/solve/solve.h"
 #include "planner/solve/verify_solution.h"
 #include "planner/solve/why_not_free.h"

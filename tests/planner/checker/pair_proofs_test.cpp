@@ -26,7 +26,7 @@ constexpr double kMargin = 0.1, kBeyond = 0.05, kLimit = 1;
 /// Returns the description of an arm that turns about z, within ±kLimit, beside a block that is
 /// fixed to its base. The arm's corner edge passes the corner (0.1, 0.5) of the block at the
 /// distance `gapAt`. No other pair has two shapes.
-RobotModel turner(const std::string& type = "revolute") {
+RobotDescription turner(const std::string& type = "revolute") {
   RobotParts parts;
   parts.links = {{"base", {}},
                  {"block", {shapeOf("block", Box{{0.2, 0.2, 0.2}}, {{0, 0.6, 0}})}},
@@ -38,14 +38,14 @@ RobotModel turner(const std::string& type = "revolute") {
   if (type == "revolute") turn.lower = -kLimit, turn.upper = kLimit;
   parts.joints = {mount, turn};
   std::vector<Fault> faults;
-  RobotModel model = makeRobot(std::move(parts), faults).value();
+  RobotDescription model = makeRobot(std::move(parts), faults).value();
   model.allowed.push_back({"arm", "block", std::string(kNeverInContact), {{kMargin, kBeyond}}});
   return model;
 }
 
 /// Returns `turner` with a second joint, so that something is planned for if the first is held.
-RobotModel turnerWithSlide() {
-  RobotModel description = turner();
+RobotDescription turnerWithSlide() {
+  RobotDescription description = turner();
   JointModel slide;
   slide.name = "slide", slide.type = JointType::prismatic, slide.parent = 0, slide.child = 3;
   slide.lower = 0, slide.upper = 1;
@@ -60,7 +60,7 @@ double gapAt(double angle) {
   return 0.5 * std::cos(angle) - 0.1 * std::sin(angle) - 0.025;
 }
 
-Model modelOf(RobotModel description, const std::string& held = "", double value = 0) {
+Model modelOf(RobotDescription description, const std::string& held = "", double value = 0) {
   ModelRobot robot;
   robot.description = std::move(description);
   if (const auto j = findJoint(robot.description, held)) robot.held[*j] = value;
@@ -276,7 +276,7 @@ TEST(PairProofs, HoldForHeldJointsWithinTheLimits) {
                                                                        {-kLimit - 0.04, true},
                                                                        {kLimit + 0.06, false},
                                                                        {-1.5, false}}) {
-    RobotModel description = turnerWithSlide();
+    RobotDescription description = turnerWithSlide();
     const Model model = modelOf(description, "turn", held);
     EXPECT_EQ(model.filter.proofs().size(), left ? 1u : 0u) << held;
     EXPECT_EQ(model.filter.whyNotTested(0, 1, requiredBy(taskOf(model))),
@@ -289,7 +289,7 @@ TEST(PairProofs, HoldForHeldJointsWithinTheLimits) {
 /// A joint with equal limits is not planned for when the proof is made, so the proof is for its
 /// only value. For another value, or if the joint is planned for, the pair is tested.
 TEST(PairProofs, JointsWithEqualLimitsHaveOneProvedValue) {
-  RobotModel description = turnerWithSlide();
+  RobotDescription description = turnerWithSlide();
   description.joints[1].lower = description.joints[1].upper = 0.5;
   EXPECT_EQ(modelOf(description, "turn", 0.5).filter.proofs().size(), 1u);
   EXPECT_EQ(modelOf(description, "turn", 0.509).filter.proofs().size(), 0u);
@@ -303,7 +303,7 @@ TEST(PairProofs, JointsWithEqualLimitsHaveOneProvedValue) {
 
 /// A held joint is stored with a rounding, which a proof with margin 0 does not cover.
 TEST(PairProofs, HeldJointsNeedAMarginOfTheProof) {
-  RobotModel description = turnerWithSlide();
+  RobotDescription description = turnerWithSlide();
   description.allowed.back().proof->margin = 0;
   EXPECT_EQ(modelOf(description, "turn", 0.3).filter.proofs().size(), 0u);
   EXPECT_EQ(modelOf(description).filter.proofs().size(), 1u);
@@ -320,7 +320,7 @@ TEST(PairProofs, ContinuousJointsHaveNoProvedRange) {
 /// A proof never says anything about planar and floating joints, or about a joint that mimics a
 /// continuous one without returning after a turn.
 TEST(PairProofs, SomeJointsHaveNoProofs) {
-  RobotModel description = turner();
+  RobotDescription description = turner();
   for (const JointType type : {JointType::planar, JointType::floating}) {
     description.joints[1].type = type;
     ModelRobot robot;
@@ -331,7 +331,7 @@ TEST(PairProofs, SomeJointsHaveNoProofs) {
     EXPECT_TRUE(builder.build().filter.proofs().empty());
   }
   for (const double multiplier : {1.0, 0.5, 0.0}) {
-    RobotModel mimicking = turner("continuous");
+    RobotDescription mimicking = turner("continuous");
     JointModel follow = mimicking.joints[1];
     follow.name = "follow", follow.child = 3, follow.mimic = Mimic{1, multiplier, 0};
     mimicking.links.push_back({"hand", {shapeOf("hand", Sphere{0.1}, {{0, 0, 5}})}});

@@ -134,7 +134,7 @@ TEST_F(MoveitStates, PosesOfTheBaseAreCompared) {
             "scene.yaml:2: robot_state.multi_dof_joint_state.transforms: one transform for each of "
             "the joint_names is needed, 0, not 1");
   state("{rotation: [0, 0, 0, 0]}");
-  EXPECT_THAT(complaintOf(plain), testing::HasSubstr("a quaternion of zeros is no rotation"));
+  EXPECT_THAT(complaintOf(plain), testing::Not(testing::HasSubstr("quaternion")));
   with(
       "robot_state: {multi_dof_joint_state: {header: {frame_id: map}, joint_names: [pan], "
       "transforms: [" +

@@ -43,6 +43,9 @@ TEST_F(ArmFaults, States) {
       "it by joints or group in the robot's file, and remove it from hold\n"
       "problem.yaml:5: start.wrist: is fixed\n"
       "problem.yaml:5: start.follow: follows slide (mimic); give only that joint");
+  EXPECT_EQ(start("{pan: 1, lift: 0, slide: 0.01}"), "no complaint") << "its held value";
+  EXPECT_THAT(start("{pan: 1, lift: 0, slide: 0.01000001}"),
+              testing::HasSubstr("start.slide: is held at 0.01, and not planned for"));
   EXPECT_EQ(start("{pan: 0,5, lift: 0}"),
             "problem.yaml:5: start.5: there is no joint \"5\" (known: pan, lift, slide); decimals "
             "need a point, not a comma");
@@ -158,7 +161,7 @@ TEST_F(ArmFaults, PartsOfAnSrdfThatCannotBeMade) {
             "arm.yaml:4: group: the group \"torso\" can't be used: arm.srdf:5: group \"torso\" has "
             "no joint of this robot: the URDF lacks waist");
   EXPECT_THAT(robot("srdf: arm.srdf\ngroup: most\n"),
-              testing::HasSubstr("start.lift: is held at 0, and not planned for"))
+              testing::HasSubstr("start.slide: is held at 0.01, and not planned for"))
       << "the group is its joint pan alone";
 }
 

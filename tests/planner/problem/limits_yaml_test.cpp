@@ -102,6 +102,28 @@ TEST_F(LimitsTest, MoveitFile) {
             "1} replaces it");
 }
 
+/// Files as drivers ship them: capitals, tags, quotes, soft limits, and keys that MoveIt ignores.
+TEST_F(LimitsTest, FilesOfDrivers) {
+  write(
+      "joint_limits.yaml",
+      "joint_limits:\n"
+      "  pan: {has_velocity_limits: True, max_velocity: !!float 2, has_acceleration_limits: TRUE, "
+      "max_acceleration: '3', max_deceleration: -2, has_soft_limits: true, k_position: 1, "
+      "k_velocity: 10, soft_lower_limit: -1, soft_upper_limit: 1}\n"
+      "  lift: {has_velocity_limits: true, max_velocity: \"0.5\", has_soft_limits: false, "
+      "has_effort_limits: true, max_effort: 100.0}\n");
+  const LimitSpec spec = specOf("  file: joint_limits.yaml\n");
+  EXPECT_EQ(spec.named.at("pan").velocity, 2);
+  EXPECT_EQ(spec.named.at("pan").acceleration, 3);
+  EXPECT_EQ(spec.named.at("lift").velocity, 0.5);
+  ASSERT_EQ(notes_.size(), 2);
+  EXPECT_THAT(notes_[0].text,
+              testing::EndsWith("joint_limits.pan.max_deceleration is not used without "
+                                "has_deceleration_limits: true (MoveIt's rule)"));
+  EXPECT_THAT(notes_[1].text, testing::EndsWith(": soft limits of pan are not used; set bounds in "
+                                                "the problem instead"));
+}
+
 TEST_F(LimitsTest, MisspeltJointsOfMoveitsFile) {
   write("joint_limits.yaml",
         "joint_limits:\n  pan: {has_velocity_limits: true, max_velocity: 2}\n"
@@ -167,6 +189,23 @@ TEST_F(LimitsTest, EveryFormOfMoveitsFile) {
   EXPECT_THAT(complaintOfFile("/**:\n" + parameters + "    joint_limit: {}\n"),
               testing::HasSubstr("joint_limits.yaml:3: unknown key \"joint_limit\" (did you mean "
                                  "\"joint_limits\"?)"));
+}
+
+/// Limits beside those that are read are not dropped.
+TEST_F(LimitsTest, TwoSetsOfLimits) {
+  const std::string pan = "joint_limits: {pan: {has_velocity_limits: true, max_velocity: 2}}",
+                    lift = "joint_limits: {lift: {has_velocity_limits: true, max_velocity: 1}}",
+                    why = ": a second joint_limits, which is not read; keep one of them";
+  EXPECT_EQ(complaintOfFile("robot_description_planning: {" + pan + "}\n" + lift + "\n"),
+            "joint_limits.yaml:2" + why);
+  EXPECT_EQ(complaintOfFile("/**: {ros__parameters: {robot_description_planning: {" + pan + "},\n" +
+                            lift + "}}\n"),
+            "joint_limits.yaml:2" + why);
+  EXPECT_EQ(complaintOfFile("/**: {ros__parameters: {" + pan + "}}\n" + lift + "\n"),
+            "joint_limits.yaml:2" + why);
+  EXPECT_EQ(complaintOfFile("/**: {ros__parameters: {" + pan + "}}\nrobot_description_planning: {" +
+                            lift + "}\n"),
+            "joint_limits.yaml:2" + why);
 }
 
 TEST_F(LimitsTest, LinkSpeedLimitsTheBoxOfTheLink) {

@@ -20,7 +20,7 @@ class NeverInContactPairs : public ArmTest {
   std::string listOf(const Pairs& pairs, AllowedPair::Proof proof, UrdfRules rules = {}) const {
     std::vector<Fault> faults;
     std::vector<std::filesystem::path> files;
-    const RobotModel robot = readUrdf(folder_ / "arm.urdf", rules, faults, files).value();
+    const RobotDescription robot = readUrdf(folder_ / "arm.urdf", rules, faults, files).value();
     std::string list;
     for (const auto& [a, b] : pairs) list += (list.empty() ? "[" : ", [") + a + ", " + b + "]";
     return "never_in_contact: {margin: " + shortest(proof.margin) +
@@ -236,7 +236,7 @@ TEST_F(NeverInContactPairs, AreProvedForAllHeldValues) {
 /// The digest of a robot of one link, computed by another program from the description of the bytes
 /// in proof_digest.h.
 TEST(ProofDigest, HasTheDescribedBytes) {
-  RobotModel robot;
+  RobotDescription robot;
   PlacedShape ball;
   ball.parts = {{{Vec3(1, 2, 3)}, 0.5, false}};
   MeshFile file;

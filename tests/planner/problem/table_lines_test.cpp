@@ -80,9 +80,18 @@ TEST(TableLines, HeadersOfNumbers) {
   const Names names{"2", "1"};
   EXPECT_EQ(read("1,2\n3,4\n", names),
             "t:1: the names of all columns are numbers, so this may be a header or a row; for a "
-            "row, write decimal points: 1.0");
+            "row, write decimal points: 1.0, and for a header, quotes: \"1\"");
+  EXPECT_EQ(read("\"1\",2\n3,4\n", names), "header line 1: 1 2; line 2: 3 4");
   EXPECT_EQ(read("1,2.0\n1,2\n", names), "line 1: 1 2.0; line 2: 1 2");
   EXPECT_EQ(read("1,2\n", names, false), "line 1: 1 2");
+}
+
+TEST(TableLines, NamesInQuotes) {
+  const Names names{"Joint 1", "a,b", "c # d"};
+  EXPECT_EQ(read("\"a,b\",\"Joint 1\",\"c # d\"\n1,2,3\n", names),
+            "header line 1: a,b Joint 1 c # d; line 2: 1 2 3");
+  EXPECT_EQ(read("# \"a,b\" \"Joint 1\" \"c # d\"\n1 2 3\n", names),
+            "header line 1: a,b Joint 1 c # d; line 2: 1 2 3");
 }
 
 TEST(TableLines, Headers) {

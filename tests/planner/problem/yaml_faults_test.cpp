@@ -82,6 +82,15 @@ TEST_F(YamlFaults, DecimalCommas) {
             "problem.yaml:8: margin: a number is needed, not \"1,500,000\"");
 }
 
+TEST_F(YamlFaults, DirectivesAfterOtherLines) {
+  const std::string why =
+      ": a line that begins with % is not read after the first lines; remove it, or put the value "
+      "in quotes";
+  EXPECT_EQ(complaintOf("%YAML 1.2\n---\n" + head + poses), "no complaint");
+  EXPECT_EQ(complaintOf("# a\na: 1\n%YAML 1.2\n"), "problem.yaml:3" + why);
+  EXPECT_EQ(complaintOf("a: 1\n%x\nb: 2\n"), "problem.yaml:2" + why);
+}
+
 TEST_F(YamlFaults, Syntax) {
   EXPECT_EQ(complaintOf("format: corridor-problem-1\nrobot: [robot.yaml\nworld: {}\n"),
             "problem.yaml:3: is not YAML: a comma or a ] is missing, here or above");

@@ -419,6 +419,14 @@ TEST_F(QueryCommand, BadInputIsOneLineAndExit2) {
   fault("a.obj b.obj --poses empty.txt",
         "empty.txt: is empty; a file of poses, one per line, is needed");
   fault("a.obj b.obj --poses comments.txt", "comments.txt: no poses");
+  write("comments.txt", "# in mm\n1 0 0 0 1 0 0 0 1 0 0 0\n");
+  fault("a.obj b.obj --poses comments.txt",
+        "comments.txt:1: the comment says \"mm\", but lengths are read in metres");
+  write("comments.txt", "# tx ty tz r00 r01 r02\n1 0 0 0 1 0 0 0 1 0 0 0\n");
+  fault(
+      "a.obj b.obj --poses comments.txt",
+      "comments.txt:1: the comment names the numbers in another order than r00 r01 … r22 tx ty tz, "
+      "in which they are read");
   fault("a.obj", "B is required" + more);
   fault("none.obj b.obj --poses poses.txt", "none.obj: no such file");
   fault("empty.obj b.obj --poses poses.txt",

@@ -18,7 +18,7 @@ class RobotLimits : public UrdfTest {
     return parts;
   }
   std::string complaintOfSrdf(const std::string& parts) {
-    RobotModel model = modelOf(link("a") + link("b") + joint("j", "continuous", "a", "b"));
+    RobotDescription model = modelOf(link("a") + link("b") + joint("j", "continuous", "a", "b"));
     std::vector<Fault> faults;
     readSrdf(write("r.srdf", "<robot name=\"r\">\n" + parts + "</robot>\n"), model, faults);
     return textOf(faults);
@@ -26,7 +26,7 @@ class RobotLimits : public UrdfTest {
 };
 
 TEST_F(RobotLimits, Links) {
-  const RobotModel model = modelOf(chain(10'000));
+  const RobotDescription model = modelOf(chain(10'000));
   EXPECT_EQ(model.links.size(), 10'000u);
   EXPECT_EQ(model.joints.size(), 9'999u);
   EXPECT_EQ(complaintOfParts(chain(10'001)),

@@ -20,7 +20,7 @@ const std::string pendulum =
 
 class SharedRobots : public testing::Test {
  protected:
-  RobotModel read(const std::string& file) {
+  RobotDescription read(const std::string& file) {
     std::vector<Fault> faults;
     files_.clear();
     auto model =
@@ -28,9 +28,9 @@ class SharedRobots : public testing::Test {
                  {.packages = {{"example-robot-data", *data_ / "robots" / "example-robot-data"}}},
                  faults, files_);
     EXPECT_TRUE(faults.empty()) << InputError(faults).what();
-    return model.value_or(RobotModel());
+    return model.value_or(RobotDescription());
   }
-  void readGroups(const std::string& file, RobotModel& model) {
+  void readGroups(const std::string& file, RobotDescription& model) {
     std::vector<Fault> faults;
     readSrdf(*data_ / "robots" / file, model, faults);
     EXPECT_TRUE(faults.empty()) << InputError(faults).what();
@@ -54,7 +54,7 @@ TEST_F(SharedRobots, HaveTheGuidesFigures) {
                          Row{simple.c_str(), "base_link", 4, 2, 0, 0, 3},
                          Row{arm.c_str(), "base", 13, 3, 3, 11, 0}}) {
     SCOPED_TRACE(row.file);
-    const RobotModel model = read(row.file);
+    const RobotDescription model = read(row.file);
     ASSERT_EQ(model.links.size(), row.links);
     EXPECT_EQ(model.links[model.root].name, row.root);
     EXPECT_EQ(model.joints.size() + 1, row.links);
@@ -102,7 +102,7 @@ TEST_F(SharedRobots, CanBeMadeOfSpheres) {
 
 TEST_F(SharedRobots, ColladaMeshesAreReadByRossRule) {
   SKIP_WITHOUT_DATA();
-  const RobotModel model = read(kinova + "robots/kinova.urdf");
+  const RobotDescription model = read(kinova + "robots/kinova.urdf");
   // The guide gives five digits.
   const auto expectBounds = [&](const char* file, const Vec3& min, const Vec3& max) {
     for (const LinkModel& link : model.links)
@@ -123,12 +123,12 @@ TEST_F(SharedRobots, ColladaMeshesAreReadByRossRule) {
 
 TEST_F(SharedRobots, SrdfPairsGroupsAndStates) {
   SKIP_WITHOUT_DATA();
-  const auto disabled = [](const RobotModel& model) {
+  const auto disabled = [](const RobotDescription& model) {
     // If two links are joined by a joint, the reason why they are allowed stays "adjacent".
     return std::count_if(model.allowed.begin(), model.allowed.end(),
                          [](const AllowedPair& pair) { return pair.reason.starts_with("SRDF: "); });
   };
-  RobotModel panda = read("panda/panda.urdf");
+  RobotDescription panda = read("panda/panda.urdf");
   readGroups("panda/panda.srdf", panda);
   EXPECT_EQ(panda.groups.at("panda_arm").joints.front(), "panda_joint1");
   EXPECT_EQ(panda.groups.at("panda_arm").joints.size(), 8u);
@@ -138,7 +138,7 @@ TEST_F(SharedRobots, SrdfPairsGroupsAndStates) {
   EXPECT_GT(disabled(panda), 20);
   EXPECT_LE(disabled(panda), 34);
 
-  RobotModel ur5 = read("ur5/ur5.urdf");
+  RobotDescription ur5 = read("ur5/ur5.urdf");
   readGroups("ur5/ur5.srdf", ur5);
   EXPECT_EQ(ur5.groups.at("manipulator").joints.size(), 7u);
   EXPECT_EQ(ur5.groups.at("gripper").joints.size(), 9u);
@@ -146,7 +146,7 @@ TEST_F(SharedRobots, SrdfPairsGroupsAndStates) {
   EXPECT_GT(disabled(ur5), 60);
   EXPECT_LE(disabled(ur5), 88);
 
-  RobotModel arm = read(kinova + "robots/kinova.urdf");
+  RobotDescription arm = read(kinova + "robots/kinova.urdf");
   readGroups(kinova + "srdf/kinova.srdf", arm);
   EXPECT_EQ(disabled(arm), 0);
   EXPECT_EQ(arm.states.at("arm_up").values.at("j2s6s200_joint_2"), 2.618);

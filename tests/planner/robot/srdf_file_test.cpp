@@ -38,7 +38,7 @@ class SrdfFile : public UrdfTest {
     return text;
   }
 
-  RobotModel model_;
+  RobotDescription model_;
 };
 
 TEST_F(SrdfFile, Groups) {
@@ -148,7 +148,7 @@ TEST_F(SrdfFile, UnknownNamesAreCountedInNotes) {
 <passive_joint name="right2"/>
 <disable_collisions link1="ground" link2="tool"/>
 <disable_collisions link1="r2" link2="tool"/>)"),
-      R"(r.srdf:9: <passive_joint> has no effect here; these joints are planned for or held like others: right1, right2
+      R"(r.srdf:9: <passive_joint>: these joints are held, unless joints names them or they mimic others: right1, right2
 r.srdf:2: 2 members of groups are left out, because the URDF lacks left3, nowhere
 r.srdf:4: 1 value of a state is left out, because the URDF lacks lft1 (did you mean "left1"?)
 r.srdf:6: 3 pairs name links that the URDF lacks: l3, l4, l5 and 1 more

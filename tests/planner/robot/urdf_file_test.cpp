@@ -11,7 +11,7 @@ namespace {
 class UrdfFile : public UrdfTest {};
 
 TEST_F(UrdfFile, JointsOfAllTypesInTheTreesOrder) {
-  const RobotModel model = modelOf(
+  const RobotDescription model = modelOf(
       joint("lift", "prismatic", "b", "c", limit + "<axis xyz=\"0 0 3\"/>") +
       joint("fly", "floating", "c", "d") +
       joint("slip", "planar", "root", "e", "<axis xyz=\"0 0 1\"/>") +
@@ -55,7 +55,7 @@ TEST_F(UrdfFile, JointsOfAllTypesInTheTreesOrder) {
 
 TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {
   const std::string wide = R"(<limit lower="-20" upper="20" effort="0" velocity="0"/>)";
-  const RobotModel model =
+  const RobotDescription model =
       modelOf(link("a") + link("b") + link("c") + link("d") +
               joint("k", "prismatic", "a", "b",
                     wide + "<mimic joint=\"l\" multiplier=\"-3\" offset=\"0.25\"/>") +
@@ -74,7 +74,7 @@ TEST_F(UrdfFile, MimicsOfMimicsFollowTheOneThatMoves) {
 TEST_F(UrdfFile, OnlyTheLeadersLimitsCountForAMimic) {
   const auto range = [&](const std::string& leader, const std::string& limits,
                          const std::string& mimic) {
-    const RobotModel model =
+    const RobotDescription model =
         modelOf(link("a") + link("b") + link("c") +
                 joint("pan", leader, "a", "b", leader == "continuous" ? "" : limit) +
                 joint("tilt", "revolute", "b", "c",
@@ -111,9 +111,9 @@ TEST_F(UrdfFile, OnlyTheLeadersLimitsCountForAMimic) {
 }
 
 TEST_F(UrdfFile, EffortAndVelocityMayBeMissing) {
-  const RobotModel model = modelOf(link("a") + link("b") + link("c") +
-                                   joint("j", "revolute", "a", "b", "<limit upper=\"2\"/>") +
-                                   joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>"));
+  const RobotDescription model = modelOf(link("a") + link("b") + link("c") +
+                                         joint("j", "revolute", "a", "b", "<limit upper=\"2\"/>") +
+                                         joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>"));
   EXPECT_EQ(model.joints[0].lower, 0);
   EXPECT_EQ(model.joints[0].upper, 2);
   EXPECT_TRUE(model.joints[1].mimic) << "a mimic needs no <limit>";
@@ -125,7 +125,7 @@ TEST_F(UrdfFile, EffortAndVelocityMayBeMissing) {
 }
 
 TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
-  const RobotModel model = modelOf(
+  const RobotDescription model = modelOf(
       link("a") + link("b") + link("c") + joint("pan", "revolute", "a", "b", limit) +
       joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pam\" multiplier=\"2\"/>"));
   EXPECT_FALSE(model.joints[1].mimic);
@@ -138,7 +138,7 @@ TEST_F(UrdfFile, AMimicOfAnUnknownJointMovesByItself) {
 
 TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
   for (const char* const type : {"fixed", "planar", "floating"}) {
-    const RobotModel model =
+    const RobotDescription model =
         modelOf(link("a") + link("b") + link("c") + joint("pan", type, "a", "b") +
                 joint("tilt", "revolute", "b", "c", limit + "<mimic joint=\"pan\"/>"));
     EXPECT_FALSE(model.joints[1].mimic);
@@ -154,21 +154,21 @@ TEST_F(UrdfFile, AJointThatCannotLeadIsNoLeader) {
 /// The reader passes ? in place of % to urdfdom, so urdfdom sees the same name twice. The joint
 /// "j?", which the mimic names, does not exist.
 TEST_F(UrdfFile, LeadersAreFoundByTheirNamesInTheFile) {
-  const RobotModel model = modelOf(
+  const RobotDescription model = modelOf(
       link("a") + link("b") + joint("j%", "revolute", "a", "b", limit + "<mimic joint=\"j?\"/>"));
   EXPECT_FALSE(model.joints[0].mimic);
   EXPECT_EQ(model.notes.size(), 1u);
 }
 
 TEST_F(UrdfFile, FixedJointsMayMimicEachOther) {
-  const RobotModel model =
+  const RobotDescription model =
       modelOf(link("a") + link("b") + link("c") + joint("j", "fixed", "a", "b") +
               joint("k", "fixed", "a", "c", "<mimic joint=\"j\"/>"));
   EXPECT_FALSE(model.joints[1].mimic);
 }
 
 TEST_F(UrdfFile, PrimitivesStandWhereTheirOriginSays) {
-  const RobotModel model = modelOf(
+  const RobotDescription model = modelOf(
       link("a",
            "<collision><origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/>"
            "<geometry><box size=\"2 4 6\"/></geometry><material name=\"grey\"/></collision>" +
@@ -198,7 +198,7 @@ TEST_F(UrdfFile, PrimitivesStandWhereTheirOriginSays) {
 }
 
 TEST_F(UrdfFile, MeshesAreScaledTurnedAndShifted) {
-  const RobotModel model =
+  const RobotDescription model =
       modelOf(link("a", collision("<mesh filename=\"wedge.obj\"/>")) +
               link("b",
                    "<collision><origin xyz=\"0 0 5\" rpy=\"1.5707963267948966 0 0\"/><geometry>"
@@ -224,7 +224,7 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   write("beside/in_beside.obj", wedge);
   rules_.packages["mapped"] = folder_ / "else";
   const std::string above = folder_.filename().string();
-  const RobotModel model = modelOf(link(
+  const RobotDescription model = modelOf(link(
       "a", collision("<mesh filename=\"package://mapped/where/in_map.obj\"/>") +
                collision("<mesh filename=\"package://beside/in_beside.obj\"/>") +
                collision("<mesh filename=\"package://" + above + "/wedge.obj\"/>") +
@@ -233,6 +233,76 @@ TEST_F(UrdfFile, MeshesAreFoundInPackagesBesideAndAbove) {
   EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "else/where/in_map.obj",
                                  folder_ / "beside/in_beside.obj", folder_ / "wedge.obj"}));
   ASSERT_EQ(model.links[0].shapes.size(), 5u);
+}
+
+/// What collision does not need is not tested, nor passed on to urdfdom, which would refuse it.
+TEST_F(UrdfFile, PartsThatCollisionDoesNotNeed) {
+  const RobotDescription model = modelOf(
+      link("base", "<inertial/>") +
+      link("a", "<inertial><mass value=\"\"/><inertia/></inertial><visual><geometry/></visual>" +
+                    collision("<sphere radius=\"1\"/>")) +
+      joint("j", "revolute", "base", "a",
+            "<limit lower=\"-1\" upper=\"2\" effort=\"N/A\" velocity=\"3\"/><dynamics/>"
+            "<safety_controller soft_lower_limit=\"-1\"/><calibration rising=\"x\"/>") +
+      link("b") +
+      joint("k", "prismatic", "a", "b",
+            "<limit lower=\"-1\" upper=\"2\" effort=\"inf\" velocity=\"inf\"/>") +
+      "<transmission/><gazebo><plugin/></gazebo>");
+  ASSERT_EQ(model.joints.size(), 2u);
+  EXPECT_EQ(model.joints[0].velocity, 3);
+  EXPECT_EQ(model.joints[1].velocity, HUGE_VAL);
+  EXPECT_THAT(
+      textsOf(model.notes),
+      testing::ElementsAre(testing::HasSubstr("joint \"k\": its velocity is not limited (inf)")));
+}
+
+TEST_F(UrdfFile, Capsules) {
+  const RobotDescription model = modelOf(
+      link("a",
+           "<collision><origin xyz=\"1 0 0\" rpy=\"0 1.5707963267948966 0\"/><geometry><capsule "
+           "radius=\"0.5\" length=\"2\"/></geometry></collision>") +
+      link("b", collision("<cylinder radius=\"0.5\" length=\"2\"/>")) +
+      joint("j", "fixed", "a", "b"));
+  const PlacedShape& shape = model.links.at(0).shapes.at(0);
+  const Capsule* const capsule = std::get_if<Capsule>(&shape.primitive.value());
+  ASSERT_TRUE(capsule);
+  EXPECT_EQ(capsule->radius, 0.5);
+  EXPECT_EQ(capsule->length, 2) << "between the centres of its ends (urdfdom's rule)";
+  // Along x: its ends are half-spheres about (0, 0, 0) and (2, 0, 0).
+  const ConvexPart& part = shape.parts.at(0);
+  ASSERT_EQ(part.points.size(), 2u);
+  EXPECT_EQ(part.radius, 0.5);
+  EXPECT_LT(
+      std::min((part.points[0] - Vec3(2, 0, 0)).norm(), (part.points[1] - Vec3(2, 0, 0)).norm()),
+      1e-15);
+  EXPECT_TRUE(std::get_if<Cylinder>(&model.links.at(1).shapes.at(0).primitive.value()));
+}
+
+TEST_F(UrdfFile, TextsInDeclaredEncodings) {
+  const std::string robot = "<robot name='r'><link name='T\xFCr'/></robot>";
+  std::vector<Fault> faults;
+  const auto model =
+      readUrdf(write("r.urdf", "<?xml version='1.0' encoding='ISO-8859-1'?>" + robot), rules_,
+               faults, files_);
+  ASSERT_TRUE(model) << textOf(faults);
+  EXPECT_EQ(model->links.at(0).name, "T\u00fcr");
+  EXPECT_THAT(
+      complaintOf("<!-- -->\n" + robot),
+      testing::StartsWith("r.urdf:2: is not in UTF-8 (byte 0xFC); save it in UTF-8, or name"));
+}
+
+TEST_F(UrdfFile, UrdfsByNameOrContent) {
+  const std::string robot = "<?xml version='1.0'?><!-- a <link> > -->\n<robot name='r'/>";
+  for (const std::string name : {"a.urdf", "a.URDF", "a.xacro", "a.xml", "a"})
+    EXPECT_TRUE(isUrdf(write(name, robot))) << name;
+  for (const auto& [name, text] :
+       std::vector<std::pair<std::string, std::string>>{{"b.xml", "<launch/>"},
+                                                        {"b", "mesh"},
+                                                        {"b.yaml", robot},
+                                                        {"b.dae", robot},
+                                                        {"c.xml", ""}})
+    EXPECT_FALSE(isUrdf(write(name, text))) << name;
+  EXPECT_FALSE(isUrdf(folder_ / "none.xml"));
 }
 
 /// Names with a scheme are URIs; a name that is not encoded counts where no file has the decoded
@@ -254,11 +324,11 @@ TEST_F(UrdfFile, ThreeSlashesAreReadAsTwo) {
   write("hand/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
   const std::string three = collision("<mesh filename=\"package:///hand/a.obj\"/>");
   const std::string note = ": package:///NAME/FILE is read as package://NAME/FILE";
-  const RobotModel one = modelOf(link("a", three));
+  const RobotDescription one = modelOf(link("a", three));
   EXPECT_EQ(files_, (std::vector{folder_ / "r.urdf", folder_ / "hand/a.obj"}));
   EXPECT_THAT(textsOf(one.notes), testing::ElementsAre((folder_ / "r.urdf").string() +
                                                        ": mesh \"package:///hand/a.obj\"" + note));
-  const RobotModel two =
+  const RobotDescription two =
       modelOf(link("a", three + collision("<mesh filename=\"package://hand/a.obj\"/>") + three));
   EXPECT_THAT(textsOf(two.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
@@ -350,7 +420,7 @@ TEST_F(UrdfFile, Visuals) {
       link("a", visual("<torus/>") + collision("<box size=\"1 1 1\"/>")) +
       link("b", visual("<sphere radius=\"2\"/>") + visual("<mesh filename=\"wedge.obj\"/>")) +
       link("c") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "c");
-  const RobotModel ignored = modelOf(parts);
+  const RobotDescription ignored = modelOf(parts);
   EXPECT_EQ(ignored.links[1].shapes.size(), 0u);
   EXPECT_THAT(textsOf(ignored.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
@@ -358,7 +428,7 @@ TEST_F(UrdfFile, Visuals) {
                                    "<collision> (visuals: collide in robot.yaml uses the visuals): "
                                    "b"));
   rules_.visualsCollide = true;
-  const RobotModel used = modelOf(parts);
+  const RobotDescription used = modelOf(parts);
   EXPECT_TRUE(used.notes.empty());
   EXPECT_EQ(used.links[0].shapes.size(), 1u);
   ASSERT_EQ(used.links[1].shapes.size(), 2u);
@@ -366,7 +436,8 @@ TEST_F(UrdfFile, Visuals) {
   EXPECT_EQ(used.links[1].shapes[1].mesh->mesh.vertices[0], Vec3(0, 0, 1));
   EXPECT_EQ(used.links[2].shapes.size(), 0u);
   EXPECT_EQ(complaintOfParts(link("a", visual("<torus/>"))),
-            "r.urdf:2: link \"a\": unknown geometry <torus>; <box>, <cylinder>, <sphere> or <mesh> "
+            "r.urdf:2: link \"a\": unknown geometry <torus>; <box>, <cylinder>, <capsule>, "
+            "<sphere> or <mesh> "
             "is needed");
 }
 
@@ -382,7 +453,7 @@ TEST_F(UrdfFile, SoftLimits) {
       joint("wide", "revolute", "c", "d", safety(R"(soft_lower_limit="-3" soft_upper_limit="3")")) +
       joint("free", "continuous", "d", "e",
             R"(<safety_controller k_velocity="1" soft_lower_limit="0"/>)");
-  const RobotModel hard = modelOf(parts);
+  const RobotDescription hard = modelOf(parts);
   EXPECT_EQ(hard.joints[0].lower, -1);
   EXPECT_EQ(hard.joints[1].upper, 2);
   EXPECT_THAT(textsOf(hard.notes),
@@ -391,7 +462,7 @@ TEST_F(UrdfFile, SoftLimits) {
                                    "narrower (limits: soft in robot.yaml applies them): both, "
                                    "one"));
   rules_.softLimits = true;
-  const RobotModel soft = modelOf(parts);
+  const RobotDescription soft = modelOf(parts);
   EXPECT_TRUE(soft.notes.empty());
   EXPECT_EQ(soft.joints[0].lower, -0.5);
   EXPECT_EQ(soft.joints[0].upper, 1);
@@ -427,21 +498,21 @@ TEST_F(UrdfFile, UpAxesOfColladaFiles) {
   write("z.dae", collada("<up_axis>Z_UP</up_axis>"));
   const std::string parts =
       link("a", collision("<mesh filename=\"y.dae\"/>") + collision("<mesh filename=\"z.dae\"/>"));
-  const RobotModel ros = modelOf(parts);
+  const RobotDescription ros = modelOf(parts);
   EXPECT_EQ(ros.links[0].shapes[0].mesh->mesh.vertices[2], Vec3(0, 2, 0));
   EXPECT_THAT(textsOf(ros.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
                                    ": the up-axis of y.dae is not z; it is not applied (ROS's "
                                    "rule), and collada_up: file in robot.yaml applies it"));
   rules_.colladaUp = true;
-  const RobotModel file = modelOf(parts);
+  const RobotDescription file = modelOf(parts);
   EXPECT_TRUE(file.notes.empty());
   EXPECT_EQ(file.links[0].shapes[0].mesh->mesh.vertices[2], Vec3(0, 0, 2));
   EXPECT_EQ(file.links[0].shapes[1].mesh->mesh.vertices[2], Vec3(0, 2, 0));
 }
 
 TEST_F(UrdfFile, ReportsIgnoredElements) {
-  const RobotModel model = modelOf(
+  const RobotDescription model = modelOf(
       "<gazebo reference=\"a\"><x/></gazebo>\n<transmission name=\"t\"/>\n" +
       link("a",
            "<contact/><drake:x/><vsual/>"
@@ -464,8 +535,9 @@ TEST_F(UrdfFile, ReportsIgnoredElements) {
 }
 
 TEST_F(UrdfFile, AcceptsUnusualNames) {
-  const RobotModel model = modelOf(link("100%s &lt;a&gt;") + link("b c") +
-                                   joint("50%n", "revolute", "100%s &lt;a&gt;", "b c", limit));
+  const RobotDescription model =
+      modelOf(link("100%s &lt;a&gt;") + link("b c") +
+              joint("50%n", "revolute", "100%s &lt;a&gt;", "b c", limit));
   EXPECT_EQ(model.links[0].name, "100%s <a>");
   EXPECT_EQ(model.joints[0].name, "50%n");
   EXPECT_EQ(model.joints[0].upper, 2);

@@ -54,12 +54,12 @@ class UrdfTest : public testing::Test {
     return complaintOf("<robot name=\"r\">\n" + parts + "\n</robot>\n");
   }
 
-  RobotModel modelOf(const std::string& parts) {
+  RobotDescription modelOf(const std::string& parts) {
     std::vector<Fault> faults;
     auto model = readUrdf(write("r.urdf", "<robot name=\"r\">\n" + parts + "\n</robot>\n"), rules_,
                           faults, files_);
     EXPECT_EQ(textOf(faults), "no complaint");
-    return model.value_or(RobotModel());
+    return model.value_or(RobotDescription());
   }
 
   std::filesystem::path folder_;

@@ -133,7 +133,7 @@ TEST_F(UrdfFuzz, Srdf) {
   ASSERT_TRUE(model);
   attack(srdf, [&](const std::string& text) {
     std::vector<Fault> faults;
-    RobotModel copy = *model;
+    RobotDescription copy = *model;
     readSrdf(write("r.srdf", text), copy, faults);
     return faults;
   });

@@ -8,7 +8,7 @@ using UrdfUnits = UrdfTest;
 
 TEST_F(UrdfUnits, MeshesInMillimetresAreNoted) {
   write("big.obj", "v 0 0 0\nv 1000 0 0\nv 0 200 0\nf 1 2 3\n");
-  const RobotModel model = modelOf(link("a", collision("<mesh filename=\"big.obj\"/>")));
+  const RobotDescription model = modelOf(link("a", collision("<mesh filename=\"big.obj\"/>")));
   EXPECT_THAT(textsOf(model.notes),
               testing::ElementsAre((folder_ / "r.urdf").string() +
                                    ":2: shape \"a\" is 1000 m long; if its mesh is in "

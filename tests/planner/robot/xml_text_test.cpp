@@ -44,7 +44,7 @@ TEST_F(XmlText, OtherTextIsASeriousNoteOnEachKindOfElement) {
               ElementsAre("r.urdf:5: robot \"r\": the text \"-->\" in <robot> is not read",
                           "r.urdf:3: link \"a\": the text \"height = 3\" in <link> is not read",
                           "r.urdf:6: joint \"j\": the text \"/>\" in <joint> is not read"));
-  const RobotModel model = modelOf("x" + link("a"));
+  const RobotDescription model = modelOf("x" + link("a"));
   ASSERT_EQ(model.notes.size(), 1u);
   EXPECT_EQ(model.notes[0].weight, NoteWeight::coverage);
   EXPECT_THAT(notesOn("<!-- x=1 -->\n" + link("a", "<!-- y=2 --> \t" + collision(ball))),
@@ -117,7 +117,7 @@ TEST_F(XmlText, CollisionsOfGazeboAreNotedIfTheyHaveAShape) {
 }
 
 TEST_F(XmlText, SrdfFilesToo) {
-  RobotModel model = modelOf(link("a") + link("b") + joint("j", "revolute", "a", "b", limit));
+  RobotDescription model = modelOf(link("a") + link("b") + joint("j", "revolute", "a", "b", limit));
   model.notes.clear();
   std::vector<Fault> faults;
   readSrdf(write("r.srdf",

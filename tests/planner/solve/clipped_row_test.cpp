@@ -43,7 +43,7 @@ class ClippedRow {
   TrajectoryRows moved(double by) const {
     TrajectoryRows rows = rows_;
     rows.rows[row_].positions += by * direction_;
-    const std::string text = csvText(rows, problem_.model.space);
+    const std::string text = csvText(rows, problem_.model);
     return readTrajectory("clip.csv", text, problem_.model);
   }
   /// A contact on one of the two pieces beside the row.

@@ -48,6 +48,28 @@ TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
   }
 }
 
+/// Start and goal that are equal, or differ by roundings, give two rows.
+TEST_F(MakeTrajectory, PathsOfNearlyNothing) {
+  for (const std::string more :
+       {"", "limits: {position: {velocity: 1, acceleration: 2, jerk: 9}}\n"}) {
+    const Problem problem = problemWith(more);
+    const Checker checker(problem);
+    for (const double off : {0.0, 1e-300, 0x1p-54, 1e-12, 9e-10})
+      for (const TrajectoryFileKind kind : {TrajectoryFileKind::csv, TrajectoryFileKind::message}) {
+        const MadeTrajectory made =
+            makeTrajectory(problem, checker, {at(0, 0.2), at(off, 0.2)}, kind);
+        EXPECT_EQ(made.fault, "") << off;
+        EXPECT_EQ(made.rows, 2u);
+        EXPECT_TRUE(made.isGood());
+        EXPECT_EQ(verified(problem, made).verdict, PathVerdict::proved);
+      }
+    // A little more is a path like others.
+    const MadeTrajectory longer = makeTrajectory(problem, checker, {at(0, 0.2), at(1e-7, 0.2)});
+    EXPECT_EQ(longer.fault, "");
+    EXPECT_TRUE(longer.isGood());
+  }
+}
+
 /// Stopping at every corner takes longer than rounding the corners. If no curve at a corner is
 /// proved, the robot stops there.
 TEST_F(MakeTrajectory, StopsOnlyWhereNoCurveIsProved) {

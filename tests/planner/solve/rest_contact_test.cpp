@@ -114,7 +114,7 @@ TEST_F(RestContact, IsRefusedByThePlanner) {
 
 TEST_F(RestContact, IsRefutedByTheVerifier) {
   const Problem problem = problemOf(-0.01);
-  EXPECT_EQ(plainProblem(problem).restPairs.size(), 1u) << "hook and floor";
+  EXPECT_EQ(plainProblem(problem).heldPairs.size(), 1u) << "hook and floor";
   const VerifyReport report = verifySolution(problem, straight(problem));
   EXPECT_EQ(report.verdict, PathVerdict::refuted);
   EXPECT_EQ(firstFinding(report), "in every state: contact: hook and floor");

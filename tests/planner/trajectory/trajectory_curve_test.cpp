@@ -2,9 +2,11 @@
 // written.
 #include "planner/trajectory/trajectory_curve.h"
 
+#include <algorithm>
 #include <random>
 
 #include "collision/core/whole_file.h"
+#include "planner/problem/text_words.h"
 #include "planner/solve/outside_bounds.h"
 #include "planner/solve/verify_solution.h"
 #include "planner/trajectory/trajectory_text.h"
@@ -132,7 +134,7 @@ TEST_F(TrajectoryCurve, WrittenTextsReadBackAsTheSameDoubles) {
       wrote.timed = timed;
       wrote.hasVelocities = has > 0;
       wrote.hasAccelerations = has > 1;
-      std::vector<std::string> all{csvText(wrote, problem_.model.space)};
+      std::vector<std::string> all{csvText(wrote, problem_.model)};
       if (timed) all.push_back(messageText(wrote, problem_.model.space));
       for (const std::string& text : all) {
         const TrajectoryRows read = rows(text);
@@ -159,6 +161,75 @@ TEST_F(TrajectoryCurve, WrittenTextsReadBackAsTheSameDoubles) {
   EXPECT_THROW(messageText(wrote, problem_.model.space), std::invalid_argument);
 }
 
+/// Joints with any names are written so that the reader finds them.
+TEST_F(TrajectoryCurve, NamesOfAnyKindAreReadBack) {
+  const std::vector<std::string> all{"Revolute 1",
+                                     "a,b",
+                                     "c # d",
+                                     "e \"f\"",
+                                     "time",
+                                     "b",
+                                     "a",
+                                     "1",
+                                     "-2.5",
+                                     "vel/a",
+                                     "a_velocity",
+                                     "a.velocity",
+                                     "(deg)",
+                                     "x;y",
+                                     "from",
+                                     "velocity/a",
+                                     "T\u00fcr",
+                                     "acc_a",
+                                     "a_acceleration",
+                                     "time_from_start"};
+  std::mt19937_64 random(test::testSeed(5));
+  for (int n = 0; n < 200; ++n) {
+    std::vector<std::string> names = all;
+    std::shuffle(names.begin(), names.end(), random);
+    names.resize(1 + random() % 6);
+    std::string text = "<robot name='r'><link name='l0'/>";
+    const auto quoted = [](std::string name) {
+      for (auto at = name.find('"'); at != name.npos; at = name.find('"', at + 6))
+        name.replace(at, 1, "&quot;");
+      return name;
+    };
+    for (std::size_t i = 0; i < names.size(); ++i)
+      text += "<link name='l" + std::to_string(i + 1) + "'/><joint name=\"" + quoted(names[i]) +
+              "\" type='continuous'><parent link='l" + std::to_string(i) + "'/><child link='l" +
+              std::to_string(i + 1) + "'/></joint>";
+    write("names.urdf", text + "</robot>");
+    std::string state;
+    for (const std::string& name : names)
+      state += (state.empty() ? "" : ", ") + yamlText(name) + ": 0.5";
+    const Problem problem = readProblem(
+        write("names.yaml", "format: corridor-problem-1\nrobot: names.urdf\nworld: {}\nstart: {" +
+                                state + "}\ngoal: {" + state + "}\n"));
+    EXPECT_EQ(problem.task.start, Configuration::Constant(Eigen::Index(names.size()), 0.5));
+    TrajectoryRows wrote;
+    const auto size = static_cast<Eigen::Index>(names.size());
+    wrote.timed = random() % 4 != 0;
+    wrote.hasVelocities = wrote.timed && random() % 2;
+    wrote.hasAccelerations = wrote.hasVelocities && random() % 2;
+    for (int k = 0; k < 3; ++k)
+      wrote.rows.push_back({0, double(k), Configuration::Random(size), Configuration::Random(size),
+                            Configuration::Random(size)});
+    const std::string csv = csvText(wrote, problem.model);
+    const TrajectoryRows read = readTrajectory("t.csv", csv, problem.model);
+    ASSERT_EQ(read.rows.size(), 3u) << csv;
+    EXPECT_EQ(read.timed, wrote.timed);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(read.rows[k].positions, wrote.rows[k].positions) << csv;
+      if (wrote.hasVelocities) {
+        EXPECT_EQ(read.rows[k].velocities, wrote.rows[k].velocities) << csv;
+      }
+      if (wrote.hasAccelerations) {
+        EXPECT_EQ(read.rows[k].accelerations, wrote.rows[k].accelerations) << csv;
+      }
+    }
+  }
+}
+
 TEST_F(TrajectoryCurve, FloatingBodiesAreWrittenWithQuaternions) {
   const Problem body = read(head + poses);
   TrajectoryRows wrote;
@@ -166,7 +237,7 @@ TEST_F(TrajectoryCurve, FloatingBodiesAreWrittenWithQuaternions) {
   const Configuration zero = Configuration::Zero(7);
   wrote.rows = {{0, 0, numbers({1, 2, 3, 0, 0, 0, 1}), numbers({4, 5, 6, 0, 0, 0, 0}), {}},
                 {0, 1, numbers({1, 2, 3, 0.1, 0, 0, 1}), zero, {}}};
-  const TrajectoryRows back = readTrajectory("t.csv", csvText(wrote, body.model.space), body.model);
+  const TrajectoryRows back = readTrajectory("t.csv", csvText(wrote, body.model), body.model);
   EXPECT_EQ(back.rows[0].velocities, wrote.rows[0].velocities);
   EXPECT_EQ(back.rows[1].positions, wrote.rows[1].positions);
   EXPECT_THROW(messageText(wrote, body.model.space), std::invalid_argument);

@@ -5,7 +5,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace corridor;
   static const fuzz::Folder folder;
-  static const RobotModel arm = [] {
+  static const RobotDescription arm = [] {
     fuzz::writeArm(folder);
     std::vector<Fault> faults;
     std::vector<std::filesystem::path> files;
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }();
   const auto file = folder.write("r.srdf", fuzz::textOf(data, size));
   fuzz::readsOrRefuses([&] {
-    RobotModel model = arm;
+    RobotDescription model = arm;
     std::vector<Fault> faults;
     readSrdf(file, model, faults);
     fuzz::checkFaults(faults);

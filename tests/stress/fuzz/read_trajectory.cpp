@@ -71,7 +71,7 @@ void checkCurve(const Curve& curve, const ConfigurationSpace& space) {
 }
 
 void checkText(const TrajectoryRows& rows, const Model& model) {
-  const TrajectoryRows back = readTrajectory("b", csvText(rows, model.space), model);
+  const TrajectoryRows back = readTrajectory("b", csvText(rows, model), model);
   if (back.rows.size() != rows.rows.size() || back.timed != rows.timed)
     fuzz::fail("a text that reads back with other rows");
   for (std::size_t k = 0; k < rows.rows.size(); ++k)

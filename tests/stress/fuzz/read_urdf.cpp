@@ -12,7 +12,7 @@ using namespace corridor;
 
 /// Returns the links and joints of a robot in the form in which a program passes them to
 /// `makeRobot`.
-RobotParts partsOf(const RobotModel& model) {
+RobotParts partsOf(const RobotDescription& model) {
   RobotParts parts;
   parts.links = model.links;
   for (const JointModel& joint : model.joints) {
@@ -36,7 +36,7 @@ RobotParts partsOf(const RobotModel& model) {
   return parts;
 }
 
-void compareWithParts(const RobotModel& model) {
+void compareWithParts(const RobotDescription& model) {
   std::vector<Fault> faults;
   const auto made = makeRobot(partsOf(model), faults);
   for (const Fault& fault : faults) fuzz::fail("refused as parts: " + fault.str());

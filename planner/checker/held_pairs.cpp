@@ -1,4 +1,4 @@
-#include "planner/checker/rest_pairs.h"
+#include "planner/checker/held_pairs.h"
 
 #include <algorithm>
 #include <optional>
@@ -24,7 +24,7 @@ Scene sceneOf(const Scene& scene, std::vector<Scene::Pair> pairs) {
   return Scene(std::move(placed), std::move(pairs));
 }
 
-void addShapes(const RestPair& pair, const std::vector<std::size_t>& first,
+void addShapes(const HeldPair& pair, const std::vector<std::size_t>& first,
                std::vector<Scene::Pair>& pairs) {
   for (std::size_t s = first[pair.a]; s < first[pair.a + 1]; ++s)
     for (std::size_t t = first[pair.b]; t < first[pair.b + 1]; ++t) pairs.push_back({s, t});
@@ -39,16 +39,16 @@ Configuration zeroConfiguration(const ConfigurationSpace& space) {
   return q;
 }
 
-std::vector<RestPair> restPairsNotFree(const Model& model, const Scene& scene, const Required& need,
+std::vector<HeldPair> heldPairsNotFree(const Model& model, const Scene& scene, const Required& need,
                                        MotionOptions options) {
-  std::vector<RestPair> all;
+  std::vector<HeldPair> all;
   forEachPair(model, need, [&](std::size_t a, std::size_t b, std::string_view why) {
     if (why == kTestedAtRest) all.push_back({a, b});
   });
   if (all.empty() || !standardFloatingPoint()) return all;
   const std::vector<std::size_t> first = firstShapes(model);
   std::vector<Scene::Pair> pairs;
-  for (const RestPair& pair : all) addShapes(pair, first, pairs);
+  for (const HeldPair& pair : all) addShapes(pair, first, pairs);
   const Scene atRest = sceneOf(scene, std::move(pairs));
   std::optional<PairMargins> paddings;
   options.pairMargins = nullptr;
@@ -68,25 +68,25 @@ std::vector<RestPair> restPairsNotFree(const Model& model, const Scene& scene, c
                                     first.begin()) -
            1;
   };
-  std::vector<RestPair> notFree;
+  std::vector<HeldPair> notFree;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].verdict == MotionVerdict::free) continue;
     const auto [a, b] = std::minmax({bodyOf(atRest.pairs()[i].a), bodyOf(atRest.pairs()[i].b)});
     notFree.push_back({a, b});
   }
-  const auto before = [](const RestPair& x, const RestPair& y) {
+  const auto before = [](const HeldPair& x, const HeldPair& y) {
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   };
   std::sort(notFree.begin(), notFree.end(), before);
-  const auto same = [](const RestPair& x, const RestPair& y) { return x.a == y.a && x.b == y.b; };
+  const auto same = [](const HeldPair& x, const HeldPair& y) { return x.a == y.a && x.b == y.b; };
   notFree.erase(std::unique(notFree.begin(), notFree.end(), same), notFree.end());
   return notFree;
 }
 
-Scene withPairs(const Model& model, const Scene& scene, const std::vector<RestPair>& more) {
+Scene withPairs(const Model& model, const Scene& scene, const std::vector<HeldPair>& more) {
   std::vector<Scene::Pair> pairs = scene.pairs();
   const std::vector<std::size_t> first = firstShapes(model);
-  for (const RestPair& pair : more) addShapes(pair, first, pairs);
+  for (const HeldPair& pair : more) addShapes(pair, first, pairs);
   return sceneOf(scene, std::move(pairs));
 }
 

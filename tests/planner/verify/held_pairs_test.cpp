@@ -1,4 +1,4 @@
-// Pairs of bodies that never move relative to each other (PathProblem::restPairs). The expected
+// Pairs of bodies that never move relative to each other (PathProblem::heldPairs). The expected
 // distances follow from the shapes: balls and boxes at known places.
 #include <cmath>
 #include <string>
@@ -63,7 +63,7 @@ struct Turret {
                       {"ground", &box, {}, false, 0},
                       {"sky", nullptr, {&parts[3], 1}, false, 0}};
     problem.pairs = {{0, 4}};  // far apart
-    problem.restPairs = {{0, 1}, {2, 3}};
+    problem.heldPairs = {{0, 1}, {2, 3}};
   }
   Turret(const Turret&) = delete;
 
@@ -78,7 +78,7 @@ struct Turret {
   }
 };
 
-TEST(RestPairs, AreDecidedOnceForAllStates) {
+TEST(HeldPairs, AreDecidedOnceForAllStates) {
   for (const double gap : {1e-1, 1e-6, -1e-6, -1e-2}) {
     SCOPED_TRACE(gap);
     const Turret turret(1 + 2 * kRadius + gap);
@@ -106,7 +106,7 @@ TEST(RestPairs, AreDecidedOnceForAllStates) {
   }
 }
 
-TEST(RestPairs, KeepMarginAndPadding) {
+TEST(HeldPairs, KeepMarginAndPadding) {
   Turret turret(1 + 2 * kRadius + 0.01);
   turret.problem.margin = 0.009;
   EXPECT_EQ(turret.report().verdict, PathVerdict::proved);
@@ -115,13 +115,13 @@ TEST(RestPairs, KeepMarginAndPadding) {
   EXPECT_EQ(turret.report().findings[0].reason, "closer than the margin");
   EXPECT_NEAR(turret.report().findings[0].gap, 0.01, 1e-9);
   turret.problem.margin = 0.009;
-  turret.problem.restPairs[0].padding = 0.002;
+  turret.problem.heldPairs[0].padding = 0.002;
   ASSERT_EQ(turret.report().findings.size(), 1u);
   EXPECT_EQ(turret.report().findings[0].reason, "closer than margin and padding");
   EXPECT_NEAR(turret.report().findings[0].required, 0.011, 1e-12);
 }
 
-TEST(RestPairs, OfTheWorldAndAHeldJoint) {
+TEST(HeldPairs, OfTheWorldAndAHeldJoint) {
   EXPECT_EQ(Turret(2, 2 * kRadius).report().verdict, PathVerdict::proved);
   const Turret low(2, 0.5 * kRadius);
   const PathReport report = low.report();
@@ -132,7 +132,7 @@ TEST(RestPairs, OfTheWorldAndAHeldJoint) {
   EXPECT_LT((report.findings[0].point - Vec3(-5, 0, 0)).norm(), kRadius);
 }
 
-TEST(RestPairs, InsideASolidMesh) {
+TEST(HeldPairs, InsideASolidMesh) {
   Turret turret(2, -0.5);
   EXPECT_EQ(turret.report().verdict, PathVerdict::proved) << "the box is a surface";
   turret.problem.bodies[3].solid = true;
@@ -141,7 +141,7 @@ TEST(RestPairs, InsideASolidMesh) {
   EXPECT_TRUE(turret.report().findings[0].inEveryState);
 }
 
-TEST(RestPairs, WithTooLittleClearanceAreUndecided) {
+TEST(HeldPairs, WithTooLittleClearanceAreUndecided) {
   Turret turret(1 + 2 * kRadius + 1e-5);
   turret.problem.tolerance = 1e-4;
   turret.problem.margin = 1e-5;
@@ -152,7 +152,7 @@ TEST(RestPairs, WithTooLittleClearanceAreUndecided) {
 }
 
 /// A path that touches something else, too, has both findings.
-TEST(RestPairs, ComeBeforeTheFindingsOfEdges) {
+TEST(HeldPairs, ComeBeforeTheFindingsOfEdges) {
   Turret turret(1);
   turret.parts[3].points[0] = Vec3(std::sqrt(2.0), 0, 0);  // on the ball's circle
   const PathReport report = turret.report();
@@ -163,19 +163,19 @@ TEST(RestPairs, ComeBeforeTheFindingsOfEdges) {
   EXPECT_TRUE(report.findings[1].freeUntil.has_value());
 }
 
-TEST(RestPairs, NeedBodiesThatDoNotMove) {
+TEST(HeldPairs, NeedBodiesThatDoNotMove) {
   Turret turret(2);
-  turret.problem.restPairs = {{0, 4}};
+  turret.problem.heldPairs = {{0, 4}};
   try {
     turret.report();
     ADD_FAILURE() << "the turret moves the ball against the sky";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()),
-              "verifyPath: a pair of restPairs has a joint that moves between its bodies");
+              "verifyPath: a pair of heldPairs has a joint that moves between its bodies");
   }
-  turret.problem.restPairs = {{0, 7}};
+  turret.problem.heldPairs = {{0, 7}};
   EXPECT_THROW(turret.report(), std::invalid_argument);
-  turret.problem.restPairs = {{0, 1, -1}};
+  turret.problem.heldPairs = {{0, 1, -1}};
   EXPECT_THROW(turret.report(), std::invalid_argument);
 }
 

@@ -1,4 +1,4 @@
-#include "planner/checker/rest_pairs.h"
+#include "planner/checker/held_pairs.h"
 
 #include <filesystem>
 #include <fstream>
@@ -20,10 +20,10 @@ using testing::IsEmpty;
 
 /// A base at the origin, an arm 1 m up that turns, and three balls that are held: a lift 1 m to the
 /// side of the base, a hand on the arm 0.5 m out, and a lamp that is fixed to the hand.
-class RestPairs : public testing::Test {
+class HeldPairs : public testing::Test {
  protected:
-  RestPairs() : folder_(test::newFolder()) { writeUrdf(); }
-  ~RestPairs() override { std::filesystem::remove_all(folder_); }
+  HeldPairs() : folder_(test::newFolder()) { writeUrdf(); }
+  ~HeldPairs() override { std::filesystem::remove_all(folder_); }
 
   static std::string ball(const std::string& name) {
     return "<link name='" + name +
@@ -65,7 +65,7 @@ class RestPairs : public testing::Test {
   static std::vector<std::string> pairsOf(const Problem& problem) {
     const Checker checker(problem);
     std::vector<std::string> names;
-    for (const RestPair& pair : checker.notFreeAtRest())
+    for (const HeldPair& pair : checker.notFreeAtRest())
       names.push_back(problem.model.bodies[pair.a].name + " ~ " +
                       problem.model.bodies[pair.b].name);
     const MotionVerdict verdict = checker.certifyState(startOf(problem)).verdict;
@@ -81,7 +81,7 @@ class RestPairs : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(RestPairs, AreTestedForAllStates) {
+TEST_F(HeldPairs, AreTestedForAllStates) {
   EXPECT_THAT(pairsOf(problemOf(wallAt(1e-3))), IsEmpty());
   const Problem problem = problemOf(wallAt(-1e-3));
   EXPECT_THAT(pairsOf(problem), ElementsAre("lift ~ wall"));
@@ -102,13 +102,13 @@ TEST_F(RestPairs, AreTestedForAllStates) {
 }
 
 /// The pairs of a free problem are those that move: no time is lost on the others.
-TEST_F(RestPairs, CostNothingIfFree) {
+TEST_F(HeldPairs, CostNothingIfFree) {
   const Problem free = problemOf(wallAt(1e-3)), notFree = problemOf(wallAt(-1e-3));
   EXPECT_EQ(Checker(free).scene().pairs().size() + 1, Checker(notFree).scene().pairs().size());
   EXPECT_EQ(Checker(free).counters().states, 0u);
 }
 
-TEST_F(RestPairs, KeepMarginAndPadding) {
+TEST_F(HeldPairs, KeepMarginAndPadding) {
   EXPECT_THAT(pairsOf(problemOf(wallAt(0.01) + "margin: 0.009\n")), IsEmpty());
   EXPECT_THAT(pairsOf(problemOf(wallAt(0.01) + "margin: 0.011\n")), ElementsAre("lift ~ wall"));
   EXPECT_THAT(pairsOf(problemOf(wallAt(0.01) + "margin: 0.009\npadding: {pairs: [[lift, wall, "
@@ -120,17 +120,17 @@ TEST_F(RestPairs, KeepMarginAndPadding) {
       << "without the task of the problem";
 }
 
-TEST_F(RestPairs, DependOnTheHeldValue) {
+TEST_F(HeldPairs, DependOnTheHeldValue) {
   EXPECT_THAT(pairsOf(problemOf(wallAt(-1e-3), "hold: {raise: 0.3}\n")), IsEmpty());
 }
 
-TEST_F(RestPairs, AllowedOnesAreNotTested) {
+TEST_F(HeldPairs, AllowedOnesAreNotTested) {
   EXPECT_THAT(pairsOf(problemOf(wallAt(-1e-3) + "allow: [[lift, wall]]\n")), IsEmpty());
 }
 
 /// The hand can be held so that its lamp touches the arm. The lamp and the hand overlap always, but
 /// only a fixed joint is between them.
-TEST_F(RestPairs, OfOneRobotOnAMovingLink) {
+TEST_F(HeldPairs, OfOneRobotOnAMovingLink) {
   EXPECT_THAT(pairsOf(problemOf("")), IsEmpty());
   std::ofstream(folder_ / "more.urdf")
       << "<robot name='arm'>" << ball("base") << ball("arm") << ball("left") << ball("right")
@@ -143,7 +143,7 @@ TEST_F(RestPairs, OfOneRobotOnAMovingLink) {
 }
 
 /// A joint whose limits are equal can't move in any problem. So it is like a fixed joint.
-TEST_F(RestPairs, NotOfJointsThatCanNotMove) {
+TEST_F(HeldPairs, NotOfJointsThatCanNotMove) {
   writeUrdf("<limit lower='0' upper='0' effort='1' velocity='1'/>");
   const Problem problem = problemOf(wallAt(-1e-3));
   EXPECT_THAT(pairsOf(problem), IsEmpty());

@@ -10,7 +10,7 @@ namespace corridor {
 
 /// Two bodies of a model, by index, that stand still relative to each other because the joints
 /// between them are held. a < b.
-struct RestPair {
+struct HeldPair {
   std::size_t a = 0, b = 0;
 };
 
@@ -22,11 +22,11 @@ struct RestPair {
 /// If the processor's floating-point mode makes the bounds invalid, all pairs are returned.
 /// @param scene as `makeScene` makes it from the model. Its pairs are ignored.
 /// @param options its `pairMargins` are ignored; the padding is that of `need`.
-std::vector<RestPair> restPairsNotFree(const Model& model, const Scene& scene, const Required& need,
+std::vector<HeldPair> heldPairsNotFree(const Model& model, const Scene& scene, const Required& need,
                                        MotionOptions options);
 
 /// Returns a scene that also tests `more` pairs. It shares the bodies' meshes and trees.
-Scene withPairs(const Model& model, const Scene& scene, const std::vector<RestPair>& more);
+Scene withPairs(const Model& model, const Scene& scene, const std::vector<HeldPair>& more);
 
 /// Returns a configuration whose numbers are 0, and whose rotations are the identity. Bodies that
 /// stand still relative to each other have the same relative pose there as everywhere.

@@ -1,4 +1,4 @@
-#include "planner/checker/still_pairs.h"
+#include "planner/checker/fixed_pairs.h"
 
 #include <cmath>
 #include <filesystem>
@@ -32,9 +32,9 @@ std::string jointBetween(const std::string& type, const std::string& parent,
 
 /// A robot with a base, a plate fixed to it, an arm, and a finger and a thumb on slides that can be
 /// held.
-class StillPairs : public testing::Test {
+class FixedPairs : public testing::Test {
  protected:
-  StillPairs() : folder_(test::newFolder()) {
+  FixedPairs() : folder_(test::newFolder()) {
     std::ofstream(folder_ / "arm.urdf")
         << "<robot name='arm'>" << ballLink("base", 0.1) << ballLink("plate", 0.05)
         << ballLink("arm", 0.1) << ballLink("finger", 0.05) << ballLink("thumb", 0.05)
@@ -43,7 +43,7 @@ class StillPairs : public testing::Test {
         << jointBetween("prismatic", "arm", "finger", "0.5 0 0")
         << jointBetween("prismatic", "arm", "thumb", "0.5 0 0.02") << "</robot>";
   }
-  ~StillPairs() override { std::filesystem::remove_all(folder_); }
+  ~FixedPairs() override { std::filesystem::remove_all(folder_); }
 
   /// Returns the pairs of a problem with these keys, "a ~ b: touch" or "a ~ b: close", and their
   /// notes.
@@ -56,10 +56,10 @@ class StillPairs : public testing::Test {
                                             << keys;
     const Problem problem = readProblem(folder_ / "problem.yaml");
     const Checker checker(problem);
-    const auto pairs = closeStillPairs(checker, startOf(problem));
-    notes_ = textsOf(notesOnStillPairs(checker, startOf(problem)));
+    const auto pairs = closeFixedPairs(checker, startOf(problem));
+    notes_ = textsOf(notesOnFixedPairs(checker, startOf(problem)));
     std::vector<std::string> texts;
-    for (const StillPair& pair : pairs)
+    for (const FixedPair& pair : pairs)
       texts.push_back(problem.model.bodies[pair.a].name + " ~ " +
                       problem.model.bodies[pair.b].name + (pair.touches ? ": touch" : ": close"));
     return texts;
@@ -70,7 +70,7 @@ class StillPairs : public testing::Test {
   std::vector<std::string> notes_;
 };
 
-TEST_F(StillPairs, TouchOrAreWithinTheMargin) {
+TEST_F(FixedPairs, TouchOrAreWithinTheMargin) {
   EXPECT_THAT(pairsOf("world: {far: {box: [1, 1, 0.2], at: [0, 0, -0.3]}}\n"), IsEmpty())
       << "the plate overlaps the base, to which it is fixed";
   EXPECT_THAT(notes_, IsEmpty());
@@ -91,15 +91,15 @@ TEST_F(StillPairs, TouchOrAreWithinTheMargin) {
   EXPECT_THAT(pairsOf(world + "allow: [[base, table]]\n"), IsEmpty());
 }
 
-/// Pairs with held joints between them are not among them: rest_pairs.h.
-TEST_F(StillPairs, NotOfHeldJoints) {
+/// Pairs with held joints between them are not among them: held_pairs.h.
+TEST_F(FixedPairs, NotOfHeldJoints) {
   held_ = 0.05;
   EXPECT_THAT(pairsOf("margin: 0.001\n"), IsEmpty());
 }
 
 /// Tests the bases of two robots, and two obstacles with the same large mesh. Because of its size,
 /// the obstacles share the mesh and have frames of their own.
-TEST_F(StillPairs, OfTwoRobotsAndObstaclesOnFrames) {
+TEST_F(FixedPairs, OfTwoRobotsAndObstaclesOnFrames) {
   std::ofstream(folder_ / "robot.yaml")
       << "format: corridor-robot-1\nurdf: arm.urdf\njoints: [to_arm]\nhold: {to_finger: 0.3}\n";
   constexpr int kRings = 100, kPerRing = 300;  // shared meshes have 50,000 triangles or more
@@ -128,13 +128,13 @@ TEST_F(StillPairs, OfTwoRobotsAndObstaclesOnFrames) {
   const Problem problem = readProblem(folder_ / "problem.yaml");
   const Checker checker(problem);
   std::vector<std::string> texts;
-  for (const StillPair& pair : closeStillPairs(checker, startOf(problem)))
+  for (const FixedPair& pair : closeFixedPairs(checker, startOf(problem)))
     texts.push_back(problem.model.bodies[pair.a].name + " ~ " + problem.model.bodies[pair.b].name);
   EXPECT_THAT(texts, testing::UnorderedElementsAre("left/base ~ right/base", "left/base ~ near"));
 }
 
 /// A base inside a solid obstacle must be reported.
-TEST_F(StillPairs, SolidMeshAroundTheBase) {
+TEST_F(FixedPairs, SolidMeshAroundTheBase) {
   std::ofstream(folder_ / "cube.obj")
       << "v -2 -2 -0.5\nv 2 -2 -0.5\nv 2 2 -0.5\nv -2 2 -0.5\n"
          "v -2 -2 0.5\nv 2 -2 0.5\nv 2 2 0.5\nv -2 2 0.5\n"

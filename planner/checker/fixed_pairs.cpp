@@ -1,4 +1,4 @@
-#include "planner/checker/still_pairs.h"
+#include "planner/checker/fixed_pairs.h"
 
 #include <optional>
 
@@ -35,7 +35,7 @@ class StillTest {
       firstShape_.push_back(firstShape_.back() + body.shapes.size());
   }
 
-  std::optional<StillPair> operator()(std::size_t a, std::size_t b) {
+  std::optional<FixedPair> operator()(std::size_t a, std::size_t b) {
     const double margin = checker_.marginOf(a, b);
     const BoundingBox &boxA = boxAround(a), &boxB = boxAround(b);
     // The addition of 2^-40 times the coordinates covers the rounding of the boxes.
@@ -48,10 +48,10 @@ class StillTest {
     bool close = false;
     for (std::size_t s = firstShape_[a]; s < firstShape_[a + 1]; ++s)
       for (std::size_t t = firstShape_[b]; t < firstShape_[b + 1]; ++t) {
-        if (interference(posed(s), posed(t), context_)) return StillPair{a, b, true};
+        if (interference(posed(s), posed(t), context_)) return FixedPair{a, b, true};
         close = close || (margin > 0 && closerThan(posed(s), posed(t), margin, context_));
       }
-    return close ? std::optional(StillPair{a, b, false}) : std::nullopt;
+    return close ? std::optional(FixedPair{a, b, false}) : std::nullopt;
   }
 
  private:
@@ -75,7 +75,7 @@ class StillTest {
 
 }  // namespace
 
-bool hasStillPairs(const Model& model) {
+bool hasFixedPairs(const Model& model) {
   bool has = false;
   forEachPair(model, Required::beyondProofs(),
               [&](std::size_t a, std::size_t b, std::string_view why) {
@@ -84,11 +84,11 @@ bool hasStillPairs(const Model& model) {
   return has;
 }
 
-std::vector<StillPair> closeStillPairs(const Checker& checker, const Configuration& q) {
+std::vector<FixedPair> closeFixedPairs(const Checker& checker, const Configuration& q) {
   requireStandardFloatingPoint();
   const Model& model = checker.model();
   StillTest test(checker, q);
-  std::vector<StillPair> found;
+  std::vector<FixedPair> found;
   forEachPair(model, checker.required(), [&](std::size_t a, std::size_t b, std::string_view why) {
     if (why != kNeverMove || model.bodies[a].robot == model.bodies[b].robot) return;
     if (const auto pair = test(a, b)) found.push_back(*pair);
@@ -96,15 +96,15 @@ std::vector<StillPair> closeStillPairs(const Checker& checker, const Configurati
   return found;
 }
 
-std::vector<Note> notesOnStillPairs(const Checker& checker, const Configuration& q) {
+std::vector<Note> notesOnFixedPairs(const Checker& checker, const Configuration& q) {
   const Model& model = checker.model();
-  const std::vector<StillPair> pairs = closeStillPairs(checker, q);
+  const std::vector<FixedPair> pairs = closeFixedPairs(checker, q);
   constexpr std::size_t kShown = 6;
   std::vector<Note> notes;
   for (const bool touches : {true, false}) {
     std::vector<std::string> names;
-    const StillPair* first = nullptr;
-    for (const StillPair& pair : pairs)
+    const FixedPair* first = nullptr;
+    for (const FixedPair& pair : pairs)
       if (pair.touches == touches) {
         if (!first) first = &pair;
         names.push_back(model.bodies[pair.a].name + " ~ " + model.bodies[pair.b].name);

@@ -39,7 +39,8 @@ struct JointModel {
   /// is not a single number.
   double velocity = std::numeric_limits<double>::infinity();
   std::optional<Mimic> mimic;
-  int line = 0;  ///< in the URDF file
+  bool passive = false;  ///< by the SRDF: without a motor; planned for only if `joints` names it
+  int line = 0;          ///< in the URDF file
 };
 
 struct LinkModel {
@@ -94,7 +95,7 @@ std::vector<std::string> usableNames(const std::map<std::string, Named>& all) {
 
 /// One robot, as its robot.yaml, URDF and SRDF describe it. A rigid body is a robot of one link
 /// without joints, whose `mount` is floating (SE3) or planar (SE2).
-struct RobotModel {
+struct RobotDescription {
   std::string name;
   std::string urdfName;                ///< the name in the URDF; "" for a rigid body
   JointType mount = JointType::fixed;  ///< the joint between the robot's base and its root link

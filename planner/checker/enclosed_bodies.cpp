@@ -1,0 +1,97 @@
+#include "planner/checker/enclosed_bodies.h"
+
+#include <optional>
+
+#include "collision/core/floating_point.h"
+#include "collision/core/spelling.h"
+#include "collision/queries/containment.h"
+#include "collision/world/body_queries.h"
+#include "planner/checker/fixed_pairs.h"
+#include "planner/model/bounds.h"
+
+namespace corridor {
+namespace {
+
+bool contains(const Corners& outer, const Corners& inner) {
+  return (outer.lower.array() <= inner.lower.array()).all() &&
+         (inner.upper.array() <= outer.upper.array()).all();
+}
+
+/// Returns whether a body is a link of a robot with joints.
+bool isLink(const Model& model, std::size_t body) {
+  const auto& robot = model.bodies[body].robot;
+  return robot && !model.robots[*robot].isRigid();
+}
+
+class EnclosureTest {
+ public:
+  EnclosureTest(const Checker& checker, const Configuration& q)
+      : scene_(checker.scene()), X_WF_(framePoses(checker.model().tree, q)) {
+    for (const ModelBody& body : checker.model().bodies)
+      for (const PlacedShape& shape : body.shapes)
+        boxes_.push_back(boundsOf(shape, X_WF_[body.frame]));
+  }
+
+  /// @param outer, inner shapes of the scene.
+  bool operator()(std::size_t outer, std::size_t inner) {
+    const Posed<Body> a = posed(outer), b = posed(inner);
+    if (!a.shape.isMesh() || a.shape.solid() || !contains(boxes_[outer], boxes_[inner]) ||
+        interference(a, b, context_))
+      return false;
+    const MeshWithComponents around{a.shape.binaryTree(), a.shape.components()};
+    const Posed<MeshWithComponents> solid(around, a.X_W);
+    if (!b.shape.isMesh())
+      return findEnclosed(solid, Posed(b.shape.parts().front(), b.X_W), context_).has_value();
+    const MeshWithComponents within{b.shape.binaryTree(), b.shape.components()};
+    return findEnclosed(solid, Posed<MeshWithComponents>(within, b.X_W), context_).has_value();
+  }
+
+ private:
+  Posed<Body> posed(std::size_t shape) const {
+    const Scene::Placed& placed = scene_.bodies()[shape];
+    return Posed(placed.body, X_WF_[placed.frame]);
+  }
+
+  const Scene& scene_;
+  std::vector<Transform> X_WF_;
+  std::vector<Corners> boxes_;  // of the shapes, in the world
+  QueryContext context_;
+};
+
+}  // namespace
+
+std::vector<EnclosedBody> enclosedBodies(const Checker& checker, const Configuration& q) {
+  requireStandardFloatingPoint();
+  const std::vector<ModelBody>& bodies = checker.model().bodies;
+  std::vector<std::size_t> bodyOf;  // of each shape of the scene
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    bodyOf.resize(bodyOf.size() + bodies[i].shapes.size(), i);
+  EnclosureTest test(checker, q);
+  std::vector<EnclosedBody> found;
+  for (const Scene::Pair& pair : checker.scene().pairs())
+    for (const auto& [outer, inner] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+      if (test(outer, inner)) found.push_back({bodyOf[outer], bodyOf[inner]});
+  return found;
+}
+
+std::vector<Note> notesOnStart(const Checker& checker, const Configuration& q) {
+  std::vector<Note> notes = notesOnFixedPairs(checker, q);
+  const std::vector<ModelBody>& bodies = checker.model().bodies;
+  std::vector<std::string> names;
+  std::string outer, key;
+  for (const EnclosedBody& pair : enclosedBodies(checker, q)) {
+    names.push_back(bodies[pair.inner].name + " in " + bodies[pair.outer].name);
+    if (key.empty())
+      key = isLink(checker.model(), pair.outer)
+                ? "solid: true in robot.yaml, for all links or some,"
+                : "solid: true beside the mesh";
+  }
+  if (!names.empty())
+    notes.push_back(
+        {"bodies are inside closed meshes, without touching them: " + joinedFirst(names, 6) +
+             "; a mesh is a surface, so this is no contact (" + key + " makes the inside solid)",
+         NoteWeight::coverage});
+  return notes;
+}
+
+}  // namespace corridor

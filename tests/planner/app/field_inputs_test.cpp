@@ -1,0 +1,191 @@
+// Inputs as people, drivers and other programs write them: files of other encodings and names, and
+// outputs at unusual places.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/stat.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/planner/app/program_fixtures.h"
+
+namespace corridor::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class FieldInputs : public ArmTest {
+ protected:
+  static std::string robotNamed(const std::string& joint, const std::string& encoding = "") {
+    return (encoding.empty() ? "" : "<?xml version='1.0' encoding='" + encoding + "'?>\n") +
+           "<robot name='r'><link name='a'/><link name='b'><collision><geometry><sphere "
+           "radius='0.1'/></geometry></collision></link><joint name=\"" +
+           joint +
+           "\" type='revolute'><parent link='a'/><child link='b'/><limit lower='-1' upper='1' "
+           "effort='1' velocity='1'/></joint></robot>\n";
+  }
+  /// Requires that the output of --json is JSON, whatever the status.
+  void expectJson(const std::string& arguments, int status) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, status) << arguments << "\n" << result.err;
+    if (!result.out.empty()) {
+      EXPECT_TRUE(nlohmann::json::accept(result.out)) << arguments;
+    }
+  }
+};
+
+TEST_F(FieldInputs, TextThatIsNotUtf8) {
+  write("latin1.urdf", robotNamed("T\xFCr", "ISO-8859-1"));
+  write("undeclared.urdf", robotNamed("T\xFCr"));
+  write("japanese.urdf", robotNamed("\x8A\xD6\x90\xDF", "Shift_JIS"));
+  write("T\xFCr.urdf", robotNamed("door"));
+  write("T\xFCr.yaml",
+        "format: corridor-problem-1\nrobot: \"arm.urdf\"\nworld: {}\nname: T\xFCr\n");
+  for (const std::string file : {"latin1.urdf", "japanese.urdf", "T\xFCr.urdf"})
+    expectJson("inspect --json '" + file + "'", 0);
+  for (const std::string file : {"undeclared.urdf", "T\xFCr.yaml"})
+    expectJson("inspect --json '" + file + "'", 2);
+  EXPECT_THAT(run("inspect 'T\xFCr.yaml'").err,
+              HasSubstr("T?r.yaml:4: is not in UTF-8 (byte 0xFC)"));
+  // What `new problem` writes, `check` reads.
+  for (const std::string file : {"latin1.urdf", "japanese.urdf"}) {
+    ASSERT_EQ(run("new problem " + file + " -o new.yaml --force").status, 0);
+    EXPECT_EQ(run("check new.yaml").status, 0) << file;
+  }
+  EXPECT_THAT(run("new problem 'T\xFCr.urdf' -o new.yaml --force").err,
+              HasSubstr("this name is not in UTF-8, and YAML has no other; rename the file"));
+}
+
+TEST_F(FieldInputs, NamesOfJoints) {
+  for (const std::string name : {"Joint 1", "a,b", "a # b", "time", "from", "within", "a: b", "-1",
+                                 "yes", "(deg)", "it's", "velocity/x", "\u30a2", "a_velocity"}) {
+    write("named.urdf", robotNamed(name));
+    ASSERT_EQ(run("new problem named.urdf -o named.yaml --force").status, 0) << name;
+    EXPECT_EQ(run("check named.yaml").status, 0) << name << "\n" << read("named.yaml");
+    const Result solved = run("solve named.yaml --trajectory t.csv -o s.yaml");
+    EXPECT_EQ(solved.status, 0) << name << solved.out << solved.err;
+    EXPECT_EQ(run("verify named.yaml t.csv").status, 0) << name;
+    EXPECT_EQ(run("verify named.yaml s.yaml").status, 0) << name;
+  }
+}
+
+TEST_F(FieldInputs, FilesByAnotherName) {
+  for (const std::string name : {"ARM.URDF", "arm.xml", "arm", "arm.Urdf"}) {
+    write(name, read("arm.urdf"));
+    EXPECT_THAT(run("inspect " + name).out, HasSubstr("joint: \"elbow\": revolute")) << name;
+    write("p.yaml",
+          "format: corridor-problem-1\nrobot: " + name +
+              "\nworld: {}\nstart: {shoulder: 0, elbow: 0}\ngoal: {shoulder: 1, elbow: 0}\n");
+    EXPECT_EQ(run("check p.yaml").status, 0) << name;
+  }
+  for (const auto& [name, text, what] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"page.stl", "<!DOCTYPE html>\n<html><body>404</body></html>",
+            "is a web page; a mesh file"},
+           {"step.stl", "ISO-10303-21;\nHEADER;\n", "is a STEP file; a mesh file"},
+           {"zip.obj", "PK\x03\x04xxxxxxxxxxxxxxxxx", "is a ZIP archive; a mesh file"},
+           {"gz.ply", "\x1F\x8B\x08xxxxxxxxxxxxxxx", "is a gzip archive; a mesh file"},
+           {"page.urdf", "\n<html>\n", "is a web page; a robot (URDF)"},
+           {"page.yaml", "<!doctype HTML>\n", "is a web page; a problem"},
+           {"lfs.stl", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+            "git lfs pull"}}) {
+    write(name, text);
+    const Result result = run("inspect " + name);
+    EXPECT_EQ(result.status, 2) << name;
+    EXPECT_THAT(result.err, HasSubstr(what)) << name;
+  }
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"b.stl",
+            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+            "0\nendloop\nendfacet\nendsolid a\n"},
+           {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+           {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+           {"b.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+            "y\nproperty float z\nelement face 1\nproperty list uchar int "
+            "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}}) {
+    write(name, "\xEF\xBB\xBF" + text);
+    EXPECT_THAT(run("inspect " + name).out, HasSubstr("triangles: 1\n")) << name;
+  }
+}
+
+TEST_F(FieldInputs, OutputsAtUnusualPlaces) {
+  // A symbolic link stays one; the file behind it is written, and keeps its mode.
+  write("behind.yaml", "old\n");
+  ::chmod((folder_ / "behind.yaml").c_str(), 0640);
+  fs::create_symlink("behind.yaml", folder_ / "link.yaml");
+  fs::create_symlink("new.yaml", folder_ / "dangling.yaml");
+  for (const std::string name : {"link.yaml", "dangling.yaml"}) {
+    EXPECT_EQ(run("solve arm.yaml -o " + name).status, 0);
+    EXPECT_TRUE(fs::is_symlink(folder_ / name));
+  }
+  EXPECT_THAT(read("behind.yaml"), HasSubstr("format: corridor-solution"));
+  EXPECT_EQ(fs::status(folder_ / "behind.yaml").permissions(), fs::perms(0640));
+  EXPECT_THAT(read("new.yaml"), HasSubstr("format: corridor-solution"));
+  const std::string longest = std::string(250, 'n') + ".yaml";
+  EXPECT_EQ(run("solve arm.yaml -o " + longest).status, 0) << "255 bytes";
+  EXPECT_EQ(run("verify arm.yaml " + longest).status, 0);
+  // Nothing else is left in the folder.
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr(".tmp")));
+}
+
+TEST_F(FieldInputs, PipesAndDeletedFolders) {
+  ASSERT_EQ(run("solve arm.yaml -o s.yaml --trajectory t.csv").status, 0);
+  for (const std::string file : {"s.yaml", "t.csv"}) {
+    const Result piped = run("verify arm.yaml fifo", "mkfifo fifo; (cat " + file + " > fifo &) ; ");
+    EXPECT_EQ(piped.status, 0) << piped.err;
+    EXPECT_THAT(piped.out, HasSubstr("verdict: proved")) << file;
+    fs::remove(folder_ / "fifo");
+  }
+  const std::string here = folder_.string();
+  const int gone = std::system(("mkdir " + here + "/d && cd " + here + "/d && rmdir " + here +
+                                "/d && '" CORRIDOR_PROGRAM "' inspect arm.urdf >" + here +
+                                "/out.txt 2>" + here + "/err.txt")
+                                   .c_str());
+  EXPECT_EQ(WEXITSTATUS(gone), 2) << read("err.txt");
+}
+
+/// The inputs that are kept beside the project (CORRIDOR_DATA/reports), with their right answers.
+TEST_F(FieldInputs, Reports) {
+  const char* const data = std::getenv("CORRIDOR_DATA");
+  if (!data) GTEST_SKIP() << "set CORRIDOR_DATA to a folder with reports/";
+  const std::string reports = std::string(data) + "/reports/";
+  const auto text = [&](const std::string& arguments, int status) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, status) << arguments << "\n" << result.out << result.err;
+    return result.out + result.err;
+  };
+  EXPECT_THAT(text("check " + reports + "a08/cube.yaml", 0), HasSubstr("thing in wrist"));
+  for (const std::string name : {"d09/inertialnomass.urdf", "d09/safety.urdf", "d13/v1.1.urdf",
+                                 "d21/arm.URDF", "d23/bom.stl", "d23/cr.ply"})
+    text("inspect " + reports + name, 0);
+  EXPECT_THAT(text("inspect " + reports + "d09/colinvisual.urdf", 0),
+              HasSubstr("colinvisual.urdf:4: link \"a\": the <collision> in <visual> is not read"));
+  EXPECT_THAT(text("check " + reports + "d10/cont_limits.yaml", 0),
+              HasSubstr("is continuous, so lower and upper of its <limit> are not used"));
+  EXPECT_THAT(text("check " + reports + "d16/lshape.yaml --states " + reports + "d16/lpts.txt", 1),
+              HasSubstr("0,1,\n1,0,ball~plate\n2,0,ball~plate\n3,0,ball~plate\n4,1,\n"));
+  EXPECT_THAT(text("check " + reports + "d19/passive.yaml", 2),
+              HasSubstr("has no value for j1, j3, j4"));
+  for (const std::string name : {"d20/echo_ros2_operation.yaml", "d20/echo_octomap_frame.yaml"})
+    EXPECT_THAT(text("check " + reports + name, 1), HasSubstr("\"l1\" and \"crate\" touch"));
+  EXPECT_THAT(text("inspect " + reports + "d21/page.stl", 2), HasSubstr("is a web page"));
+  text("solve " + reports + "d22/blank.yaml --trajectory x.csv", 0);
+  text("verify " + reports + "d22/blank.yaml x.csv", 0);
+  text("check " + reports + "d22/from.yaml", 0);
+  expectJson("inspect --json " + reports + "d24/latin1.urdf", 0);
+  text("solve " + reports + "e02/ulp.yaml --trajectory y.csv", 0);
+  text("check " + reports + "e03/fixedfree.yaml", 0);
+  EXPECT_THAT(text("solve " + reports + "f06/soft.yaml --trajectory z.csv", 0),
+              HasSubstr("soft limits of j1, j2 are not used"));
+  EXPECT_THAT(text("verify " + reports + "s1/p.yaml " + reports + "s1/heldvel.csv", 2),
+              HasSubstr("\"j2\" is held at 0"));
+}
+
+}  // namespace
+}  // namespace corridor::test
