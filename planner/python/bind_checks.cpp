@@ -1,6 +1,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "collision/world/body_queries.h"
+#include "planner/model/bounds.h"
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
 #include "planner/python/native_problem.h"
@@ -44,6 +46,21 @@ py::tuple tupleOf(const Results& r) {
   return py::make_tuple(r.verdict, r.time, r.gap, r.pairs);
 }
 
+/// Returns a box around a body under a map, and `distance` more on each side.
+Corners boxOf(const Body& body, const Transform& X, double distance) {
+  Corners box{Vec3::Constant(HUGE_VAL), Vec3::Constant(-HUGE_VAL)};
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? body.upper()[k] : body.lower()[k];
+    const Vec3 p_W = X * p;
+    // Rounded, with room for it.
+    const Vec3 room = Vec3::Constant(distance) + 0x1p-40 * (p_W.cwiseAbs() + p.cwiseAbs());
+    box.lower = box.lower.cwiseMin(p_W - room);
+    box.upper = box.upper.cwiseMax(p_W + room);
+  }
+  return box;
+}
+
 py::tuple check(const NativeProblem& problem, const Array& states, std::size_t threads) {
   const Checker& checker = problem.checker();
   const std::vector<Configuration> rows = configurationsOf(states, checker.space(), "states");
@@ -53,6 +70,41 @@ py::tuple check(const NativeProblem& problem, const Array& states, std::size_t t
     out.set(i, checker, checker.inBounds(rows[i]), checker.certifyState(rows[i]));
   });
   return tupleOf(results);
+}
+
+/// Returns, for each point, whether it is at most `distance` from a shape of a robot at a state.
+py::array_t<bool> nearRobot(const NativeProblem& problem, const Array& points, const Array& state,
+                            double distance, std::size_t threads) {
+  if (!(distance >= 0 && std::isfinite(distance)))
+    refuse("distance", "a finite number of 0 or more is needed");
+  const Checker& checker = problem.checker();
+  const Model& model = checker.model();
+  const std::vector<Vec3> all = pointsOf(points, "points");
+  const std::vector<Transform> X_WF =
+      framePoses(model.tree, configurationOf(state, checker.space(), "state"));
+  std::vector<Posed<Body>> links;
+  std::vector<Corners> boxes;
+  const std::vector<Scene::Placed>& placed = checker.scene().bodies();
+  for (std::size_t s = 0; s < placed.size(); ++s) {
+    const ModelBody& body = model.bodies[checker.bodyOf(s)];
+    if (!body.robot) continue;
+    links.emplace_back(placed[s].body, X_WF[placed[s].frame]);
+    boxes.push_back(boxOf(placed[s].body, X_WF[placed[s].frame], distance));
+  }
+  py::array_t<bool> near(static_cast<py::ssize_t>(all.size()));
+  bool* const out = near.mutable_data();
+  forEachUnlocked(all.size(), threads, [&](std::size_t i) {
+    thread_local QueryContext context;
+    out[i] = false;
+    for (std::size_t k = 0; k < links.size() && !out[i]; ++k) {
+      if ((all[i].array() < boxes[k].lower.array()).any() ||
+          (all[i].array() > boxes[k].upper.array()).any())
+        continue;
+      const Body point("point", ConvexPart{{all[i]}, 0});
+      out[i] = closerThan(Posed<Body>(point), links[k], distance, context);
+    }
+  });
+  return near;
 }
 
 Array clearance(const NativeProblem& problem, const Array& states, std::size_t threads) {
@@ -90,6 +142,8 @@ void bindChecks(py::module_& module) {
   using py::arg;
   module.def("check", &check, arg("problem"), arg("states"), arg("threads"));
   module.def("clearance", &clearance, arg("problem"), arg("states"), arg("threads"));
+  module.def("near_robot", &nearRobot, arg("problem"), arg("points"), arg("state"), arg("distance"),
+             arg("threads"));
   module.def("certify", &certify, arg("problem"), arg("q0"), arg("q1"), arg("earliest"),
              arg("threads"));
 }

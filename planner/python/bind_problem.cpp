@@ -2,6 +2,8 @@
 #include <pybind11/stl.h>
 
 #include "collision/core/shortest.h"
+#include "collision/core/spelling.h"
+#include "planner/model/bounds.h"
 #include "planner/model/model_builder.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/assembly.h"
@@ -30,14 +32,18 @@ Model built(ModelBuilder& builder) {
   }
 }
 
-/// Builds a problem from descriptions of robots and obstacles (corridor/problem.py).
-ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py::list& allowed) {
-  ModelBuilder builder;
-  for (const py::handle each : robots) addRobot(builder, each.cast<py::dict>());
+void addObstacles(ModelBuilder& builder, const py::dict& obstacles) {
   for (const auto& [key, shapes] : obstacles) {
     const auto name = key.cast<std::string>();
     builder.addObstacle(name, shapesFrom(name, shapes.cast<py::list>()));
   }
+}
+
+/// Builds a problem from descriptions of robots and obstacles (corridor/problem.py).
+ProblemPointer build(const py::list& robots, const py::dict& obstacles, const py::list& allowed) {
+  ModelBuilder builder;
+  for (const py::handle each : robots) addRobot(builder, each.cast<py::dict>());
+  addObstacles(builder, obstacles);
   for (const py::handle pair : allowed) {
     const auto [a, b] = pair.cast<std::pair<std::string, std::string>>();
     builder.allow(a, b);
@@ -178,11 +184,48 @@ ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   return std::make_shared<NativeProblem>(std::move(problem), std::move(origins));
 }
 
+/// Returns a copy of the problem with other obstacles. Pairs of bodies that `allow` excludes stay
+/// excluded, and paddings stay, by the names of the bodies.
+ProblemPointer withObstacles(const ProblemPointer& from, const py::dict& obstacles) {
+  const Problem& old = from->problem();
+  const Model& before = old.model;
+  ModelBuilder builder;
+  for (std::size_t r = 0; r < before.robots.size(); ++r) builder.addRobot(robotOf(before, r));
+  for (const CoordinateGroup& group : before.space.groups())
+    if (group.kind != CoordinateGroup::Kind::joints)
+      builder.bound(group.name, boundsOf(before.space, group));
+  addObstacles(builder, obstacles);
+  Problem problem = old;
+  problem.model = built(builder);
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < problem.model.bodies.size(); ++i)
+    places[problem.model.bodies[i].name] = i;
+  std::map<std::size_t, std::size_t> now;  // by the old index
+  for (std::size_t i = 0; i < before.bodies.size(); ++i)
+    if (const auto place = places.find(before.bodies[i].name); place != places.end())
+      now[i] = place->second;
+  AllowedBodies allowed;
+  for (const auto& [a, newA] : now)
+    for (const auto& [b, newB] : now)
+      if (a < b && before.filter.whyNotTested(a, b, Required::beyondProofs()) == "allow")
+        allowed.push_back({newA, newB});
+  problem.task.padding = {};
+  for (const auto& [body, metres] : old.task.padding.bodies)
+    if (now.contains(body)) problem.task.padding.bodies[now.at(body)] = metres;
+  for (const auto& [pair, metres] : old.task.padding.pairs)
+    if (now.contains(pair.first) && now.contains(pair.second))
+      problem.task.padding.pairs[std::minmax(now.at(pair.first), now.at(pair.second))] = metres;
+  finishProblem(allowed, {}, problem);
+  setTube(problem, old.task.tube);
+  return std::make_shared<NativeProblem>(std::move(problem), from->origins(), from);
+}
+
 }  // namespace
 
 void bindProblem(py::module_& module) {
   py::class_<NativeProblem, ProblemPointer>(module, "Problem")
-      .def_property_readonly("name", [](const NativeProblem& p) { return p.problem().source.name; })
+      .def_property_readonly(
+          "name", [](const NativeProblem& p) { return withoutControls(p.problem().source.name); })
       .def_property_readonly(
           "numbers", [](const NativeProblem& p) { return p.problem().model.space.numberNames(); })
       .def_property_readonly("bodies",
@@ -194,9 +237,9 @@ void bindProblem(py::module_& module) {
                              })
       .def_property_readonly("files",
                              [](const NativeProblem& p) {
-                               std::vector<std::string> files;
+                               py::list files;  // as bytes, since they need not be UTF-8
                                for (const auto& file : p.problem().source.files)
-                                 files.push_back(file.string());
+                                 files.append(py::bytes(file.string()));
                                return files;
                              })
       .def_property_readonly(
@@ -242,7 +285,8 @@ void bindProblem(py::module_& module) {
                              [](const NativeProblem& p) { return p.problem().settings.seed; })
       .def_property_readonly("fingerprint",
                              [](const NativeProblem& p) { return fingerprintOf(p.problem()); })
-      .def("edited", &edited, py::arg("edits"));
+      .def("edited", &edited, py::arg("edits"))
+      .def("with_obstacles", &withObstacles, py::arg("obstacles"));
   module.def(
       "read_problem",
       [](const std::string& file) {

@@ -27,8 +27,11 @@ inline Code codeOf(bool inBounds, MotionVerdict verdict) {
 class NativeProblem {
  public:
   /// @param origins see SolveOptions::valueOrigins.
-  explicit NativeProblem(Problem problem, std::map<std::string, std::string> origins = {})
-      : problem_(std::move(problem)), origins_(std::move(origins)) {}
+  /// @param earlier a problem with equal meshes and settings of trees, whose trees are used, too;
+  /// may be null.
+  explicit NativeProblem(Problem problem, std::map<std::string, std::string> origins = {},
+                         std::shared_ptr<const NativeProblem> earlier = {})
+      : problem_(std::move(problem)), origins_(std::move(origins)), earlier_(std::move(earlier)) {}
   NativeProblem(const NativeProblem&) = delete;
   NativeProblem& operator=(const NativeProblem&) = delete;
 
@@ -37,14 +40,23 @@ class NativeProblem {
   /// @throws InputError if a mesh of the problem can't be used.
   const Checker& checker() const {
     const std::lock_guard lock(mutex_);
-    if (!checker_) checker_ = std::make_unique<Checker>(problem_);
+    if (!checker_) checker_ = std::make_unique<Checker>(problem_, earlierScene());
+    earlier_.reset();
     return *checker_;
   }
 
  private:
+  /// Returns the scene of the nearest earlier problem that has a checker; null if there is none.
+  const Scene* earlierScene() const {
+    for (const NativeProblem* each = earlier_.get(); each; each = each->earlier_.get())
+      if (each->checker_) return &each->checker_->scene();
+    return nullptr;
+  }
+
   Problem problem_;
   std::map<std::string, std::string> origins_;
   mutable std::mutex mutex_;
+  mutable std::shared_ptr<const NativeProblem> earlier_;  // until the checker is made
   mutable std::unique_ptr<Checker> checker_;
 };
 

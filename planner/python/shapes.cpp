@@ -29,6 +29,21 @@ PlacedShape meshShape(const std::string& name, TriangleMesh mesh, bool solid, co
   return shapeOf(name, std::move(mesh), solid);
 }
 
+PlacedShape cloud(const std::string& name, const Array& points, double radius,
+                  const GivenPose& at) {
+  if (const auto wrong = checkPrimitive(Sphere{radius}))
+    throw py::value_error(name + ": " + *wrong);
+  PlacedShape shape;
+  shape.name = name;
+  shape.at = at.pose;
+  shape.solid = true;
+  const std::vector<Vec3> centres = pointsOf(points, "points");
+  if (centres.empty()) throw py::value_error(name + ": points: at least one point is needed");
+  for (const Vec3& p : centres)
+    shape.parts.push_back(placed(Sphere{radius}, {Mat3::Identity(), at.X * p}));
+  return shape;
+}
+
 }  // namespace
 
 GivenPose givenPose(const py::object& value, const char* name) {
@@ -61,6 +76,7 @@ PlacedShape shapeFrom(const std::string& name, const py::tuple& shape) {
     return primitiveShape(name, Cylinder{shape[1].cast<double>(), shape[2].cast<double>()}, at);
   if (kind == "convex")
     return primitiveShape(name, Convex{pointsOf(shape[1].cast<Array>(), "points")}, at);
+  if (kind == "points") return cloud(name, shape[1].cast<Array>(), shape[2].cast<double>(), at);
   const bool isSolid = shape[3].cast<bool>();
   if (kind == "mesh")
     return meshShape(name, meshOf(shape[1].cast<Array>(), shape[2].cast<Indices>()), isSolid, at);

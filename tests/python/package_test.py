@@ -176,8 +176,8 @@ class Problems(unittest.TestCase):
         for text, call in (
             ("robots: what `urdf`, .* is needed, not 'x.urdf'; read_problem", lambda: corridor.Problem("x.urdf")),
             ("obstacles: shapes by name are needed", lambda: corridor.Problem([], [ball])),
-            ("a Problem is needed, not 'problems/piano'; read_problem", lambda: corridor.solve("problems/piano")),
-            ("a Problem is needed, not 3", lambda: list(corridor.solve_many([problem, 3]))),
+            ("a Problem or the name of its file is needed, not None", lambda: corridor.solve(None)),
+            ("a Problem or the name of its file is needed, not 3", lambda: list(corridor.solve_many([problem, 3]))),
             ("b: a Body is needed, not .*; Body", lambda: corridor.touch(Body(ball), ball)),
             ("a shape of corridor.shapes is needed", lambda: Body("ball.stl")),
         ):

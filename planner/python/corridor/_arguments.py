@@ -3,15 +3,33 @@
 from __future__ import annotations
 
 import operator
+import os
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 
+def _has_text(value: Any) -> bool:
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError, OverflowError):
+        return False  # whoever needs the array says why it is none
+    return array.dtype.kind in "SU" or (array.dtype.kind == "O" and any(isinstance(x, (str, bytes)) for x in array.flat))
+
+
+def _file(name: str, value: Any) -> str:
+    """Returns the absolute name of a file. Names may have any bytes: those that are not UTF-8 are surrogates in it."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"{name}: the name of a file is needed, not {value!r}")
+    return os.path.abspath(os.fsdecode(value))
+
+
 def _array(name: str, value: Any) -> NDArray[np.float64]:
     """Returns a copy as doubles. Other numbers are rounded to the nearest double; proofs are about the doubles."""
     real = not isinstance(value, np.ma.MaskedArray)
+    if _has_text(value):
+        raise ValueError(f"{name}: an array of numbers is needed, not of texts")
     try:
         real = real and not np.iscomplexobj(value)
         array = np.array(value, dtype=float) if real else np.zeros(0)

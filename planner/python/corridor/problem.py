@@ -17,13 +17,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native, workers
-from ._arguments import _array, _flag, _text, _whole
+from ._arguments import _array, _file, _flag, _number, _text, _whole
 from .certificates import Certificate, certificate_of
 from .results import Results
 from .robots import _pair, _shapes
 from .shapes import Shape
 
 _solving = threading.Lock()  # OMPL has one generator of random numbers per process
+
+
+def _renew_lock() -> None:
+    """In a process that was forked while another thread solved, no thread would ever release the lock."""
+    global _solving
+    _solving = threading.Lock()
+
+
+os.register_at_fork(after_in_child=_renew_lock)
 _this_thread = threading.local()
 
 _EDITS = (
@@ -60,10 +69,7 @@ class Problem:
             if not isinstance(robot, dict) or "bounds" not in robot:
                 hint = "; read_problem(FILE) reads a problem's file" if isinstance(robot, (str, os.PathLike)) else ""
                 raise TypeError(f"robots: what `urdf`, `robot` or `rigid_body` returns is needed, not {robot!r}{hint}")
-        if obstacles is not None and not isinstance(obstacles, Mapping):
-            raise TypeError(f"obstacles: shapes by name are needed, such as {{'table': shape}}, not {obstacles!r}")
-        named = {_text("obstacles", name): _shapes(shapes) for name, shapes in (obstacles or {}).items()}
-        self._set(("built", given, named, [_pair(pair) for pair in allow]), edits)
+        self._set(("built", given, _obstacles(obstacles), [_pair(pair) for pair in allow]), edits)
 
     @classmethod
     def read(cls, file: str | os.PathLike[str]) -> Problem:
@@ -72,19 +78,20 @@ class Problem:
         Raises InputError with all faults.
         """
         self = cls.__new__(cls)
-        self._set(("file", os.path.abspath(os.fspath(file))), {})
+        self._set(("file", _file("file", file)), {})
         return self
 
     def _set(self, recipe: tuple[Any, ...], edits: dict[str, Any]) -> None:
         self._recipe = recipe = copy.deepcopy(recipe)
-        base = _native.read_problem(recipe[1]) if recipe[0] == "file" else _native.build_problem(*recipe[1:])
-        self._edit(base, {}, edits)
+        self._edit(_made(recipe), {}, edits)
 
     def _edit(self, base: _native.Problem, before: dict[str, Any], edits: dict[str, Any]) -> None:
         for key in edits:
             if key not in _EDITS:
                 close = difflib.get_close_matches(key, _EDITS, 1)
                 hint = f" (did you mean {close[0]!r}?)" if close else f"; there are {', '.join(_EDITS)}"
+                if key == "world":
+                    hint = "; its obstacles are replaced by edited(obstacles=...)"
                 if key in ("range", "goal_bias"):
                     hint = f"; it is a parameter of planners: params={{{key!r}: ...}}"
                 raise TypeError(f"a problem has no {key!r} that can be edited{hint}")
@@ -99,6 +106,9 @@ class Problem:
     def edited(self, **edits: Any) -> Problem:
         """Returns a copy of the problem in which the given values are changed.
 
+        obstacles: shapes by name, which replace all obstacles. Pairs that may touch still may, by their names. The
+        robots' trees are kept, so that the first check takes no time for them: a loop that reads a camera makes each
+        problem from the one before.
         start (J,); goals (J,), or (G, J): a path may end at any of the G goals; margin, m; tube, {"joints": rad or m,
         "slides": m, "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's
         names; time, s; seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m;
@@ -109,15 +119,24 @@ class Problem:
         are checked by `solve`.
         """
         other = object.__new__(type(self))
-        other._recipe = self._recipe
-        other._edit(self._native, self._edits, edits)
+        other._recipe, base = self._recipe, self._native
+        if "obstacles" in edits:
+            named = _obstacles(edits.pop("obstacles"))
+            other._recipe = ("world", self._base_recipe, named)
+            base = base.with_obstacles(named)
+        other._edit(base, self._edits, edits)
         return other
+
+    @property
+    def _base_recipe(self) -> tuple[Any, ...]:
+        base: tuple[Any, ...] = self._recipe[1] if self._recipe[0] == "world" else self._recipe
+        return base
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._recipe, self._edits, self._native.fingerprint)
 
     def _require(self, key: str) -> None:
-        if self._recipe[0] == "built" and key not in self._edits:
+        if self._base_recipe[0] == "built" and key not in self._edits:
             raise ValueError(f"{key}: the problem has no {key}; set it by problem.edited({key}=...)")
 
     def __repr__(self) -> str:
@@ -226,12 +245,33 @@ class Problem:
         """Returns, for each state, the smallest distance of a tested pair minus the margin: (N,), m."""
         return _native.clearance(self._native, _array("states", states), _whole("threads", threads, 0))
 
+    def near_robot(self, points: ArrayLike, state: ArrayLike, distance: float, threads: int = 0) -> NDArray[np.bool_]:
+        """Returns which points, (N, 3), are at most `distance`, m, from the surface of a link at a state, (J,): (N,).
+
+        A camera sees the robot, too: `points[~problem.near_robot(points, state, 0.03)]` are the other points.
+        """
+        array, number = _array("points", points), _number("distance", distance)
+        return _native.near_robot(self._native, array, _array("state", state), number, _whole("threads", threads, 0))
+
     def page(self) -> str:
         """Returns an HTML page that shows the scene in 3D."""
         return _native.page(self._native, None)
 
     def _repr_html_(self) -> str:
         return _frame(self.page())
+
+
+def _obstacles(obstacles: Mapping[str, Shape | Iterable[Shape]] | None) -> dict[str, list[Shape]]:
+    if obstacles is not None and not isinstance(obstacles, Mapping):
+        raise TypeError(f"obstacles: shapes by name are needed, such as {{'table': shape}}, not {obstacles!r}")
+    return {_text("obstacles", name): _shapes(shapes) for name, shapes in (obstacles or {}).items()}
+
+
+def _made(recipe: tuple[Any, ...]) -> _native.Problem:
+    """Makes a problem without edits."""
+    if recipe[0] == "world":
+        return _made(recipe[1]).with_obstacles(recipe[2])
+    return _native.read_problem(os.fsencode(recipe[1])) if recipe[0] == "file" else _native.build_problem(*recipe[1:])
 
 
 def _value(key: str, value: Any) -> Any:
@@ -323,8 +363,10 @@ class Solution:
         """
         self._require_path()
         edited = [k for k in ("start", "goals", "margin", "tube") if k in self.problem._edits]
+        edited += ["obstacles"] if self.problem._recipe[0] == "world" else []
         if edited and self._text:
-            raise ValueError(f"a solution file is for the problem's file, and {edited[0]} was edited")
+            verb = "were" if edited[0] in ("goals", "obstacles") else "was"
+            raise ValueError(f"a solution file is for the problem's file, and {edited[0]} {verb} edited")
         if not self._text:
             raise ValueError("a solution file names the problem's file, and there is none")
         with open(os.fspath(file), "w", encoding="utf-8") as out:
@@ -381,18 +423,17 @@ class Solution:
 
 
 def solve(
-    problem: Problem, planner: str | None = None, time: float | None = None, seed: int | None = None,
+    problem: Problem | str | os.PathLike[str], planner: str | None = None, time: float | None = None, seed: int | None = None,
     trajectory: str | None = None, progress: Callable[[float, int], None] | None = None,
 ) -> Solution:  # fmt: skip
-    """Solves a problem, and proves every edge of the path.
+    """Solves a problem, or the problem in a file, and proves every edge of the path.
 
     trajectory: "csv" (rows of numbers) or "yaml" (a JointTrajectory of ROS 2) makes a trajectory, too.
     progress: called ten times a second with the seconds and the number of edges tested. Ctrl-C ends the solve.
     With most planners, the same problem and seed give the same path. A process solves one problem at a time: a second
     call waits. `solve_many` uses several processes.
     """
-    _require_problem(problem)
-    problem = _planned(problem, planner=planner, time=time, seed=seed)
+    problem = _planned(_problem_of(problem), planner=planner, time=time, seed=seed)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress: a function of seconds and edges is needed, not {progress!r}")
     if trajectory not in (None, "csv", "yaml"):
@@ -426,9 +467,13 @@ def _require_options(options: dict[str, Any]) -> None:
             raise TypeError(f"solve_many has no option {name!r}; there are {', '.join(known)}")
 
 
-def _require_problem(problem: object) -> None:
+def _problem_of(problem: object) -> Problem:
+    """Returns a problem, which is read if it is the name of a file."""
+    if isinstance(problem, (str, bytes, os.PathLike)):
+        return Problem.read(os.fsdecode(problem))
     if not isinstance(problem, Problem):
-        raise TypeError(f"a Problem is needed, not {problem!r}; read_problem(FILE) reads a problem's file")
+        raise TypeError(f"a Problem or the name of its file is needed, not {problem!r}")
+    return problem
 
 
 def _solve_alone(problem: Problem, trajectory: str | None, progress: Callable[[float, int], None] | None) -> dict[str, Any]:
@@ -443,7 +488,7 @@ def _solve_one(arguments: tuple[Problem, dict[str, Any]]) -> Solution:
     return solution
 
 
-def solve_many(problems: Iterable[Problem], processes: int | None = None, **options: Any) -> Iterator[Solution]:
+def solve_many(problems: Iterable[Problem | str | os.PathLike[str]], processes: int | None = None, **options: Any) -> Iterator[Solution]:
     """Solves several problems, and yields their solutions in the same order.
 
     processes: the number of processes; default: the number of cores. options: those of `solve`, except progress. The
@@ -451,13 +496,11 @@ def solve_many(problems: Iterable[Problem], processes: int | None = None, **opti
     Python starts processes, a script must call `solve_many` under `if __name__ == "__main__":`. Ctrl-C ends all of the
     processes.
     """
-    if isinstance(problems, Problem):
+    if isinstance(problems, (Problem, str, bytes, os.PathLike)):
         raise TypeError("problems: a list of problems is needed, not one problem")
-    problems = list(problems)
-    for problem in problems:
-        _require_problem(problem)
+    read = [_problem_of(problem) for problem in problems]
     _require_options(options)
-    solutions = workers.in_order(_solve_one, [(problem, options) for problem in problems], processes)
-    for problem, solution in zip(problems, solutions):
-        solution.problem = _planned(problem, **options)
+    solutions = workers.in_order(_solve_one, [(problem, options) for problem in read], processes)
+    for each, solution in zip(read, solutions):
+        solution.problem = _planned(each, **options)
         yield solution

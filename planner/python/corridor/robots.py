@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ._arguments import _array, _flag, _text
+from ._arguments import _array, _file, _flag, _text
 from .shapes import Shape, _numbers, _pose, _require_shape
 
 
@@ -76,11 +76,12 @@ def urdf(
     that can move. base: a `Pose` or 4×4, the pose of the root link. bounds: for each planar and floating joint,
     [[x, y, z], [x, y, z]], the lower and the upper corner of its position, m. name: needed if there are several robots.
     """
-    if os.fspath(file).endswith((".yaml", ".yml")):
+    name_of_file = _file("urdf", file)
+    if name_of_file.endswith((".yaml", ".yml")):
         raise ValueError(f"urdf: {file} is no URDF; a robot.yaml belongs to a problem's file, for read_problem")
     return {
-        "urdf": os.path.abspath(file),
-        "srdf": "" if srdf is None else os.path.abspath(srdf),
+        "urdf": os.fsencode(name_of_file),
+        "srdf": b"" if srdf is None else os.fsencode(_file("srdf", srdf)),
         "plan": _names("joints", joints),
         "base": _pose("base", base),
         "bounds": _bounds(bounds),

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import _array, _flag, _number
+from ._arguments import _array, _file, _flag, _number
 
 
 @dataclass(frozen=True)
@@ -115,9 +115,14 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
     return _shape("mesh", _array("vertices", vertices), _indices(triangles), _flag("solid", solid), pose=pose)
 
 
+def points(points: ArrayLike, radius: float, pose: ArrayLike | None = None) -> Shape:
+    """A cloud: balls of a radius about points, (N, 3), such as a camera's."""
+    return _shape("points", _array("points", points), _number("radius", radius), pose=pose)
+
+
 def mesh_file(
     file: str | os.PathLike[str], metres_per_unit: float | None = None, solid: bool = False, pose: ArrayLike | None = None
 ) -> Shape:
     """A mesh file: OBJ, STL, PLY, OFF, Collada, glTF and more. If metres_per_unit is None, the file's unit is used."""
     unit = None if metres_per_unit is None else _number("metres_per_unit", metres_per_unit)
-    return _shape("file", os.path.abspath(file), unit, _flag("solid", solid), pose=pose)
+    return _shape("file", os.fsencode(_file("file", file)), unit, _flag("solid", solid), pose=pose)

@@ -28,6 +28,13 @@ def floats(values):
     return [float(value) for value in values]
 
 
+def is_number(text):
+    try:
+        return float(text) is not None
+    except (TypeError, ValueError):
+        return False
+
+
 def rotation_of(keys):
     if "rpy" in keys:
         return rotation_of_rpy(floats(keys["rpy"]))
@@ -97,7 +104,8 @@ class Robot:
     def choose(self, group=None, joints=None):
         """Sets the joints that are planned for."""
         passive = self.srdf.passive if self.srdf else set()
-        self.planned = joints or (self.srdf.group(group) if group else
+        passive |= {name for name, j in self.urdf.joints.items() if j.lower == j.upper}
+        self.planned = joints or ([j for j in self.srdf.group(group) if j not in passive] if group else
                                   [j for j in self.urdf.movable() if j not in self.hold and j not in passive])  # fmt: skip
         self.chosen = bool(group or joints)
 
@@ -129,7 +137,8 @@ class Robot:
         """A named state, or a state with values."""
         if isinstance(keys, str):
             return dict(self.states[keys])
-        return (dict(self.states[keys["from"]]) if "from" in keys else {}) | self.values(keys)
+        is_joint = "from" in self.urdf.joints and is_number(keys.get("from"))
+        return (dict(self.states[keys["from"]]) if "from" in keys and not is_joint else {}) | self.values(keys)
 
     def held(self):
         """The values of the joints that can move, but are not planned for."""
