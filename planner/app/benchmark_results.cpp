@@ -1,8 +1,10 @@
 #include "planner/app/benchmark_results.h"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
+#include <string_view>
 
 #include "planner/app/benchmark_output.h"
 #include "planner/app/output.h"
@@ -14,10 +16,24 @@
 namespace corridor::app {
 namespace {
 
+/// Returns a row per cell with the columns that fit into a terminal. The files have all columns.
+std::vector<Row> terminalRows(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+  static constexpr std::array<std::string_view, 16> kColumns{
+      "problem",         "variant",          "planner",  "runs",        "failed", "solved",
+      "refuted",         "undecided",        "time_s",   "processor_s", "states", "edges",
+      "edges_undecided", "least_distance_m", "length_m", "rotation_rad"};
+  std::vector<Row> rows = pathSummaryRows(campaign, cells);
+  for (Row& row : rows)
+    std::erase_if(row, [](const auto& column) {
+      return std::find(kColumns.begin(), kColumns.end(), column.first) == kColumns.end();
+    });
+  return rows;
+}
+
 /// Prints a row per cell, and then, if there are trajectories, a row per variant, set of limits and
 /// maker.
 void printTables(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
-  std::cout << tableOf(pathSummaryRows(campaign, cells));
+  std::cout << tableOf(terminalRows(campaign, cells));
   if (campaign.trajectories.makers.empty()) return;
   std::cout << "\nTrajectories along the paths of all problems:\n"
             << tableOf(trajectoryRows(campaign, cells));

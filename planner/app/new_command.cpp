@@ -112,7 +112,17 @@ void addNewRobot(CLI::App& parent, int& status) {
             "file: the up-axis of Collada files is applied");
   for (const char* option : {"--visuals", "--limits", "--collada-up"})
     command->get_option(option)->group(reading);
+  command
+      ->add_option("--joints", a.joints,
+                   "NAME,NAME,…: the joints that are planned for, the others are held (default: "
+                   "the SRDF's only group, or else all that can move)")
+      ->delimiter(',');
   const char* pairs = "Pairs of links";
+  command
+      ->add_flag("--allow-overlaps", a.allowOverlaps,
+                 "allow the pairs that are in contact in nearly all random states, as links do "
+                 "whose shapes overlap by design (default: they are listed for you to decide)")
+      ->group(pairs);
   command
       ->add_option(
           "--work", a.work,

@@ -23,6 +23,9 @@ struct NewRobotArguments {
   std::string urdf;
   std::optional<std::string> srdf;
   std::vector<std::string> packages;  ///< NAME=FOLDER
+  std::vector<std::string> joints;    ///< the joints that are planned for; empty: see the file
+  /// Whether pairs in contact in nearly all random states are allowed, not left to decide.
+  bool allowOverlaps = false;
   std::optional<std::string> visuals, limits, colladaUp;
   double margin = 0.01;        ///< metres that a pair must keep to count as never in contact
   double beyondLimits = 0.01;  ///< how far beyond a joint limit a proof also holds, rad or m

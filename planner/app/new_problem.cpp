@@ -76,6 +76,11 @@ std::string pointText(const Vec3& p, std::size_t count) {
   return text + "]";
 }
 
+/// Rounds to three decimals, which are easy to read and to edit.
+double threeDecimals(double number) {
+  return std::round(number * 1000) / 1000 + 0.0;  // not -0
+}
+
 /// Returns the configuration of a named state, or nullopt if it does not name all joints that are
 /// planned for. Also returns nullopt if one of them is planar or floating: named states rarely have
 /// these.
@@ -177,7 +182,8 @@ class StateFinder {
       if (c.kind == Coordinate::Kind::rotation) zero[i + 3] = middle[i + 3] = 1;
       if (c.kind != Coordinate::Kind::line) continue;
       zero[i] = std::clamp(0.0, c.lower, c.upper);
-      if (std::isfinite(c.upper - c.lower)) middle[i] = c.lower + (c.upper - c.lower) / 2;
+      if (std::isfinite(c.upper - c.lower))
+        middle[i] = std::clamp(threeDecimals(c.lower + (c.upper - c.lower) / 2), c.lower, c.upper);
     }
     add(zero, "every joint at 0, or at the limit nearest to 0");
     if (found_.size() < 2) add(middle, "every joint in the middle of its limits");
@@ -188,8 +194,7 @@ class StateFinder {
   /// other state does.
   void addRandom() {
     Configuration q = randomConfiguration(model_.space, [&] { return random_(); });
-    // Three decimals are easy to read and to edit. The state is tested as it is written.
-    q = (q * 1000).array().round() / 1000;
+    for (double& number : q) number = threeDecimals(number);  // tested as it is written
     if (!isValidAndNew(q)) return;
     FoundState state{q, stateText(model_, q), "a random valid state"};
     if (found_.empty() || checker_.isProvedFree(found_.front().q, q))

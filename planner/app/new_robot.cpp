@@ -96,9 +96,29 @@ std::string jointText(const RobotDescription& model, const JointModel& joint) {
   return text;
 }
 
+/// @throws InputError if a joint of --joints is not one that can be planned for.
+void requireMoving(const std::vector<std::string>& joints, const RobotDescription& model) {
+  std::vector<std::string> known;
+  for (const JointModel& joint : model.joints)
+    if (canMove(joint)) known.push_back(joint.name);
+  for (auto name = joints.begin(); name != joints.end(); ++name) {
+    const auto j = findJoint(model, *name);
+    if (!j)
+      throw InputError(Fault{
+          "--joints", 0,
+          "there is no joint " + quotedWord(*name) + didYouMean(*name, known) + knownWords(known)});
+    if (!canMove(model.joints[*j]))
+      throw InputError(Fault{"--joints", 0, quotedWord(*name) + " can't be planned for"});
+    if (std::find(joints.begin(), name, *name) != name)
+      throw InputError(Fault{"--joints", 0, quotedWord(*name) + " is named twice"});
+  }
+}
+
 /// Returns the joints, the states, and the groups that can be used and have a moving joint, all as
-/// comments. If there is only one such group, it is written as a key, not as a comment.
-std::string jointsText(const RobotDescription& model, bool hasSrdf) {
+/// comments. If there is only one such group, it is written as a key, not as a comment, unless
+/// `chosen` has the joints that are planned for.
+std::string jointsText(const RobotDescription& model, bool hasSrdf,
+                       const std::vector<std::string>& chosen) {
   std::string text = "\n" + comment("Joints:");
   for (const JointModel& joint : model.joints)
     if (joint.type != JointType::fixed) text += comment("- " + jointText(model, joint));
@@ -124,18 +144,19 @@ std::string jointsText(const RobotDescription& model, bool hasSrdf) {
                      "The joints that are planned for. Without group and joints: all that can "
                      "move. The others are held.");
   for (const auto& [name, joints] : groups)
-    if (groups.size() == 1)
+    if (groups.size() == 1 && chosen.empty())
       text += "group: " + yamlWord(name) + "\n" +
               comment(counted(joints.size(), "joint") + ": " + joined(joints));
     else
       text += comment("group: " + yamlWord(name) + "  # " + counted(joints.size(), "joint") + ": " +
                       joined(joints));
-  if (groups.empty() && all.size() > kManyJoints)
+  if (groups.empty() && chosen.empty() && all.size() > kManyJoints)
     text += comment("Without joints, all " + std::to_string(all.size()) +
                     " are planned for, also those of wheels and fingers: a path is hard to find, "
                     "and few states are valid. Remove the # of joints, and keep the joints between "
                     "the base and the hand that you plan for.");
-  text += comment("joints: " + yamlList(all));
+  text +=
+      chosen.empty() ? comment("joints: " + yamlList(all)) : "joints: " + yamlList(chosen) + "\n";
   text +=
       comment("hold: {NAME: 0}  # values of joints that are not planned for, or a state's name");
   text += "\n" + comment(hasSrdf ? "Named states of the SRDF, for start and goal of problems:"
@@ -190,6 +211,7 @@ std::string readingText(const NewRobotArguments& a, const RobotDescription& mode
 int newRobot(const NewRobotArguments& a) {
   requireNewFile(a.file);
   RobotFiles files = readFiles(a);
+  requireMoving(a.joints, files.model);
   RobotDescription description = files.model;  // keeps what the text needs
   std::vector<std::string> noShapes;
   addAll(notesOnMeshes(description), description.notes);
@@ -220,7 +242,7 @@ int newRobot(const NewRobotArguments& a) {
   text += a.srdf ? "srdf: " + yamlWord(pathFrom(a.file, *a.srdf)) + "\n"
                  : comment("srdf: FILE  # groups, named states, pairs of links that may touch");
   text += readingText(a, description, noShapes);
-  text += jointsText(description, a.srdf.has_value());
+  text += jointsText(description, a.srdf.has_value(), a.joints);
   text += pairsText(a, model, pairs, digest);
   writeNewFile(a.file, text);
 
@@ -232,9 +254,13 @@ int newRobot(const NewRobotArguments& a) {
                         grouped(pairs.nearlyAlways.size()) +
                         " in contact in nearly all random states, " + grouped(pairs.tested.size()) +
                         " others");
-  if (!pairs.nearlyAlways.empty())
+  if (!pairs.nearlyAlways.empty() && a.allowOverlaps)
+    out.line("allowed", counted(pairs.nearlyAlways.size(), "pair") + " in contact in nearly all " +
+                            "random states: see allow in the file");
+  else if (!pairs.nearlyAlways.empty())
     out.line("decide",
-             "the pairs that are marked DECIDE in the file; until then hardly any state is valid",
+             "the pairs that are marked DECIDE in the file, or run this with --allow-overlaps; "
+             "until then hardly any state is valid",
              Tone::bad);
   if (!pairs.contradicted.empty())
     out.line("check",

@@ -67,22 +67,31 @@ std::string contactsText(const NewRobotArguments& a, const SurveyedPair& pair) {
   return "in " + grouped(pair.contacts) + " of " + grouped(a.samples);
 }
 
-/// Returns, as comments, the pairs about which the user has to decide.
+/// Returns the pairs that are nearly always in contact: as comments, for the user to decide, or as
+/// allowed pairs.
 std::string decideText(const NewRobotArguments& a, const Model& model,
                        const std::vector<SurveyedPair>& nearlyAlways) {
   if (nearlyAlways.empty()) return "";
   const auto always = static_cast<std::size_t>(
       std::count_if(nearlyAlways.begin(), nearlyAlways.end(),
                     [&](const SurveyedPair& pair) { return pair.contacts == a.samples; }));
+  const std::string found =
+      counted(nearlyAlways.size(), "pair") + " in contact in at least 95 % of " +
+      counted(a.samples, "random state") + ", of which " + grouped(always) + " in all. ";
+  const std::string unreported = "No contact of an allowed pair is reported.";
+  const std::string sign = a.allowOverlaps ? "" : "# ";
   std::string text = comment(
-      "DECIDE: " + counted(nearlyAlways.size(), "pair") + " in contact in at least 95 % of " +
-      counted(a.samples, "random state") + ", of which " + grouped(always) +
-      " in all. While these pairs are tested, hardly any state is valid. If the shapes overlap by "
-      "design, remove the # of allow and of these pairs; if not, correct the URDF, or plan for "
-      "fewer joints (see joints above). No contact of an allowed pair is reported.");
-  text += "# allow:\n";
+      a.allowOverlaps
+          ? "Allowed by --allow-overlaps: " + found + unreported
+          : "DECIDE: " + found +
+                "While these pairs are tested, hardly any state is valid. If the shapes overlap by "
+                "design, remove the # of allow and of these pairs, or run corridor new robot with "
+                "--allow-overlaps; if not, correct the URDF, or plan for fewer joints (see joints "
+                "above). " +
+                unreported);
+  text += sign + "allow:\n";
   for (const SurveyedPair& pair : nearlyAlways)
-    text += "#   - " + pairText(model, pair) + "  # " + contactsText(a, pair) + "\n";
+    text += sign + "  - " + pairText(model, pair) + "  # " + contactsText(a, pair) + "\n";
   return text;
 }
 

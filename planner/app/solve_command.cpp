@@ -56,9 +56,8 @@ std::string namesOf(const ProblemList& list) {
   return all;
 }
 
-/// @throws InputError if an option for trajectories is given without --trajectory, or if the
-/// trajectory's file can't be written.
-void requireTrajectory(const SolveArguments& a, bool several) {
+/// @throws InputError if an option for trajectories is given without --trajectory.
+void requireTrajectory(const SolveArguments& a) {
   const auto need = [&](const auto& value, const char* option) {
     if (value && !a.trajectory)
       throw InputError(Fault{option, 0, "needs --trajectory, which is not given"});
@@ -67,11 +66,6 @@ void requireTrajectory(const SolveArguments& a, bool several) {
   need(a.rate, "--rate");
   need(a.deviation, "--deviation");
   need(a.cornerDeviation, "--corner-deviation");
-  if (!a.trajectory) return;
-  if (several)
-    throw InputError(Fault{"--trajectory", 0, "is a file for one problem, and several are given"});
-  trajectoryKindOf(*a.trajectory);
-  requireWritable(a.trajectory, "--trajectory");
 }
 
 /// @throws InputError if an output file for a single problem can't be written, is of the wrong
@@ -92,6 +86,10 @@ void requireFiles(const SolveArguments& a) {
                    "pictures are SVG or PNG, so a name that ends in .svg or .png is needed");
   if (a.output != "-") requireWritable(a.output, "--output");
   if (a.picture != "-") requireWritable(a.picture, "--picture");
+  if (a.trajectory) {
+    trajectoryKindOf(*a.trajectory);
+    requireWritable(a.trajectory, "--trajectory");
+  }
   if ((a.json || a.jsonLines) && printsFile(a))
     throw InputError(Fault{a.output == "-" ? "--output" : "--picture", 0,
                            "the standard output has the report of --json already; name a file"});
@@ -131,7 +129,7 @@ int solveCommand(const SolveArguments& a) {
   if (a.keep == "clearest" && a.tries == 1)
     throw InputError(Fault{"--keep", 0, "needs --tries, which is not given"});
   const ProblemList list = listProblems(a.problems);
-  requireTrajectory(a, list.several);
+  requireTrajectory(a);
   if (list.several) {
     LocalExecutor local(a.jobs, solveStarter(list.problems, a), Killable::untilItSends);
     const std::atomic<bool>& interrupted = job.listen();
@@ -258,7 +256,7 @@ void addSolve(CLI::App& program, int& status) {
       ->add_option("--trajectory", a.trajectory,
                    "make a trajectory along the path, prove it, and write it to this file: .csv "
                    "(rows of numbers) or .yaml (a JointTrajectory of ROS 2); it keeps the "
-                   "problem's limits")
+                   "problem's limits; for several problems, .csv files to this folder")
       ->group(motion);
   command
       ->add_option("--smooth", a.smooth,

@@ -44,6 +44,9 @@ fs::path solutionIn(const std::string& folder, const ListedProblem& problem) {
 fs::path pictureIn(const std::string& folder, const ListedProblem& problem) {
   return fs::path(folder) / (problem.name + ".svg");
 }
+fs::path trajectoryIn(const std::string& folder, const ListedProblem& problem) {
+  return fs::path(folder) / (problem.name + ".csv");
+}
 
 /// Makes a folder for files, unless it exists. @throws InputError if it can't be used.
 void requireFolder(const std::optional<std::string>& folder, const char* option,
@@ -54,7 +57,7 @@ void requireFolder(const std::optional<std::string>& folder, const char* option,
   std::error_code error;
   const bool isFolder = fs::is_directory(*folder, error);
   const bool isFileName = extension == ".yaml" || extension == ".yml" || extension == ".svg" ||
-                          extension == ".png" || extension == ".path";
+                          extension == ".png" || extension == ".path" || extension == ".csv";
   if (*folder == "-" || (fs::exists(*folder, error) && !isFolder) || (!isFolder && isFileName))
     refuse("names one file, but there " +
            std::string(problems == 1 ? "may be several problems"
@@ -83,6 +86,7 @@ SolveArguments argumentsFor(const ListedProblem& problem, const SolveArguments& 
   SolveArguments own = a;
   if (a.output) own.output = solutionIn(*a.output, problem).string();
   if (a.picture) own.picture = pictureIn(*a.picture, problem).string();
+  if (a.trajectory) own.trajectory = trajectoryIn(*a.trajectory, problem).string();
   return own;
 }
 
@@ -137,18 +141,23 @@ void solveAll(std::size_t problems, Executor& executor, const std::atomic<bool>&
   }
 }
 
+/// Returns whether the report has a trajectory that was not made, or is not proved.
+bool lacksTrajectory(const ordered_json& report) {
+  return report.contains("trajectory") && !report["trajectory"].value("proved", false);
+}
+
 int statusOf(const ordered_json& report) {
   const std::string result = report["result"];
-  return result == nameOf(SolveOutcome::solved) ? kDone
-         : result == kBadInputResult            ? kBadInput
-         : result == kFailedResult              ? kInternal
-                                                : kNegativeResult;
+  return result == nameOf(SolveOutcome::solved) && !lacksTrajectory(report) ? kDone
+         : result == kBadInputResult                                        ? kBadInput
+         : result == kFailedResult                                          ? kInternal
+                                                                            : kNegativeResult;
 }
 
 /// Returns the line about one problem.
 std::string lineOf(const ordered_json& report) {
   std::string line = report["result"];
-  if (statusOf(report) != kDone) {
+  if (report.contains("why")) {
     const std::string why = report["why"];
     return line + ": " + why.substr(0, why.find('\n'));
   }
@@ -165,6 +174,13 @@ std::string lineOf(const ordered_json& report) {
   if (const std::size_t pairs = report["left_out"].size();
       pairs > 0 && report["certified"].get<bool>())
     line += " except " + counted(pairs, "pair");
+  if (report.contains("trajectory")) {
+    const auto& made = report["trajectory"];
+    line += made.contains("why_none") ? ", no trajectory: " + made["why_none"].get<std::string>()
+            : lacksTrajectory(report)
+                ? ", trajectory not proved"
+                : ", trajectory of " + rounded(made["duration_s"].get<double>()) + " s";
+  }
   return line + ", " + durationText(report["time_s"]);
 }
 
@@ -198,7 +214,7 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
     if (solved.empty()) continue;
     std::string times;
     for (const auto& [key, name] : kSolvePhases) {
-      if (key == std::string_view("trajectory_s")) continue;  // --trajectory is for one problem
+      if (!solved.front()->at("phases").contains(key)) continue;  // without --trajectory
       std::vector<double> seconds;
       for (const ordered_json* report : solved) seconds.push_back((*report)["phases"][key]);
       times +=
@@ -225,6 +241,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
               Executor& executor, const std::atomic<bool>& interrupted) {
   requireFolder(a.output, "--output", problems.size());
   requireFolder(a.picture, "--picture", problems.size());
+  requireFolder(a.trajectory, "--trajectory", problems.size());
   requireNoOtherFile(problems, a);
   const ResultPrinter out(a.quiet || a.json || a.jsonLines);
   const bool show = !a.quiet && ::isatty(STDERR_FILENO) != 0;

@@ -6,6 +6,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/whole_file.h"
+#include "planner/benchmark/contenders.h"
 #include "planner/benchmark/report_plots.h"
 #include "planner/benchmark/report_tables.h"
 #include "planner/benchmark/write_reports.h"
@@ -53,8 +54,10 @@ class Report {
         cells_(cells),
         sessions_(sessions),
         folder_(folder),
+        contenders_(contendersOf(campaign, cells)),
         scores_(scoresOf(campaign, cells)),
-        reference_(referenceVariant(cells)),
+        ranked_(scoresOf(contenders_.campaign, contenders_.cells)),
+        reference_(referenceVariant(contenders_.cells)),
         files_{folder / "report.html"} {}
 
   std::vector<fs::path> write() {
@@ -65,8 +68,9 @@ class Report {
           Fault{(folder_ / "plots").string(), 0, "can't be created: " + failure.message()});
     std::string error, solved, clearance;
     if (campaign_.problems.size() > 1) {
-      if (campaign_.verify) error = figures(figure(refutedShareOfAll(campaign_, cells_, scores_)));
-      solved = figures(figure(profileOfAll(campaign_, cells_)));
+      const auto& [campaign, cells] = contenders_;
+      if (campaign_.verify) error = figures(figure(refutedShareOfAll(campaign, cells, ranked_)));
+      solved = figures(figure(profileOfAll(campaign, cells)));
     }
     if (campaign_.verify) {
       error += figuresOfEach(timeAgainstRefuted);
@@ -74,25 +78,30 @@ class Report {
     } else {
       error = clearance = "<p>Paths were not verified.</p>";
     }
-    solved += figuresOfEach(solvedOverTime);
+    solved += figuresOfEach([&](const Campaign&, const std::vector<CampaignCell>&, std::size_t p) {
+      return solvedOverTime(contenders_.campaign, contenders_.cells, p);
+    });
     const std::string name = campaign_.name.empty() ? "Comparison" : campaign_.name;
-    const std::string page = view::filled(
-        reportFile("report.html"), {{"title", escapedHtml(name)},
-                                    {"style", std::string(reportFile("report.css"))},
-                                    {"script", std::string(reportFile("report.js"))},
-                                    {"summary", summary()},
-                                    {"notes", notes()},
-                                    {"first", escapedHtml(campaign_.variants[reference_].name)},
-                                    {"pairs", counted(pairs(), "run")},
-                                    {"ranking", rankingTable(campaign_, cells_, scores_)},
-                                    {"error", error},
-                                    {"solved", solved},
-                                    {"clearance", clearance},
-                                    {"costs", costTable(campaign_, scores_)},
-                                    {"cost", figure(predictedCost(campaign_, cells_, scores_))},
-                                    {"trajectories", trajectories()},
-                                    {"cells", cellTables()},
-                                    {"how", measuredTable(campaign_, cells_, sessions_)}});
+    const std::string page =
+        view::filled(reportFile("report.html"),
+                     {{"title", escapedHtml(name)},
+                      {"style", std::string(reportFile("report.css"))},
+                      {"script", std::string(reportFile("report.js"))},
+                      {"summary", summary()},
+                      {"notes", notes()},
+                      {"first", escapedHtml(contenders_.campaign.variants[reference_].name)},
+                      {"pairs", counted(pairs(), "run")},
+                      {"ranking", rankingTable(contenders_.campaign, contenders_.cells, ranked_)},
+                      {"contenders",
+                       campaign_.planners.size() > 1 ? "Planners with their variants" : "Variants"},
+                      {"error", error},
+                      {"solved", solved},
+                      {"clearance", clearance},
+                      {"costs", costTable(campaign_, scores_)},
+                      {"cost", figure(predictedCost(campaign_, cells_, scores_))},
+                      {"trajectories", trajectories()},
+                      {"cells", cellTables()},
+                      {"how", measuredTable(campaign_, cells_, sessions_)}});
     writeWhole(files_[0], page);
     return files_;
   }
@@ -105,7 +114,7 @@ class Report {
   }
   std::size_t pairs() const {
     std::size_t most = 0;
-    for (const VariantScore& score : scores_)
+    for (const VariantScore& score : ranked_)
       if (score.variant != reference_) most = std::max(most, score.pairs);
     return most;
   }
@@ -136,8 +145,8 @@ class Report {
     std::vector<std::string> notes = campaign_.notes;
     if (!canPlot())
       notes.push_back("gnuplot is not installed (Debian's gnuplot-nox), so there are no plots.");
-    if (campaign_.variants.size() > kPlotColors)
-      notes.push_back("There are more variants than colours: from the " +
+    if (contenders_.campaign.variants.size() > kPlotColors)
+      notes.push_back("There are more lines than colours: from the " +
                       std::to_string(kPlotColors + 1) + "th on the colours repeat.");
     if (campaign_.planners.size() > kPlotShapes)
       notes.push_back("There are more planners than shapes of points: from the " +
@@ -161,8 +170,8 @@ class Report {
   static std::string figures(const std::string& all) {
     return "<div class=\"plots\">" + all + "</div>\n";
   }
-  std::string figuresOfEach(Plot (*plot)(const Campaign&, const std::vector<CampaignCell>&,
-                                         std::size_t)) {
+  template <class MakePlot>
+  std::string figuresOfEach(const MakePlot& plot) {
     std::string all;
     for (std::size_t p = 0; p < campaign_.problems.size(); ++p)
       all += figure(plot(campaign_, cells_, p), campaign_.problems.size() > kMostAtOnce);
@@ -218,8 +227,9 @@ class Report {
   const std::vector<CampaignCell>& cells_;
   const std::vector<CampaignSession>& sessions_;
   fs::path folder_;
-  std::vector<VariantScore> scores_;
-  std::size_t reference_;
+  Contenders contenders_;
+  std::vector<VariantScore> scores_, ranked_;  // of the variants, and of the contenders
+  std::size_t reference_;                      // a contender
   std::vector<fs::path> files_;
   std::set<std::string> plots_;  // names of plots that are already used
 };

@@ -289,9 +289,8 @@ Plot profileOfAll(const Campaign& campaign, const std::vector<CampaignCell>& cel
         }
     }
   }
-  Plot plot{"profile",
-            "All problems, the " + std::to_string(runs) + " runs that every variant has made",
-            "processor time, multiples of the quickest variant", "share of runs", true};
+  Plot plot{"profile", "All problems, the " + std::to_string(runs) + " runs that all have made",
+            "processor time, multiples of the quickest", "share of runs", true};
   plot.rangeX = {1, std::max(10.0, decades(all).second)};
   plot.rangeY = {0, 1.02};
   for (std::size_t v = 0; v < variants && runs > 0; ++v)

@@ -161,8 +161,8 @@ std::string variantHtml(const Campaign& campaign, std::size_t variant) {
 std::string rankingTable(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                          const std::vector<VariantScore>& scores) {
   const std::size_t reference = referenceVariant(cells);
-  Table table({"variant", "refuted", "share refuted", "solved", "time", "share of checking",
-               "length left"});
+  Table table({campaign.planners.size() > 1 ? "planner, variant" : "variant", "refuted",
+               "share refuted", "solved", "time", "share of checking", "length left"});
   for (const VariantScore& s : scores) {
     const double share =
         s.judged() ? static_cast<double>(s.refuted) / static_cast<double>(s.judged()) : NAN;

@@ -46,13 +46,24 @@ void explainScalarFirst(KeysOfMaps& keys) {
         map.unsupported.push_back({key, "write quat_xyzw: [x, y, z, w], the scalar last"});
 }
 
+/// What other programs have, and problems here have not.
+std::vector<UnsupportedKey> unsupportedTopics() {
+  std::vector<UnsupportedKey> all;
+  for (const char* key :
+       {"attached", "attach", "attached_object", "attached_objects", "attached_collision_objects"})
+    all.push_back({key, "add the object to the robot's URDF, as a link with a fixed joint"});
+  for (const char* key : {"constraints", "path_constraints", "keep"})
+    all.push_back({key, "goals are joint values, and nothing but margin and limits is kept"});
+  return all;
+}
+
 KeysOfMaps makeProblemKeys() {
   KeysOfMaps keys{
       {"",
        {{"format", "robot",   "robots",  "base",     "world",   "allow",      "start",
          "goal",   "moveit",  "bounds",  "margin",   "padding", "prefer",     "tube",
          "limits", "planner", "sampler", "simplify", "checker", "trajectory", "seed"},
-        {}}},
+        unsupportedTopics()}},
       {"moveit", {{"scene", "request"}, {}}},
       {"robots.*", {{"file", "base"}, {}}},
       {"base", {placementKeys, {}}},

@@ -21,6 +21,7 @@
 #include "planner/checker/problem_goal.h"
 #include "planner/checker/state_validity_checkers.h"
 #include "planner/problem/yaml_reader.h"
+#include "planner/solve/joints_to_hold.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/ompl_goal.h"
 #include "planner/solve/simplify_path.h"
@@ -411,6 +412,7 @@ void SolveRun::finish() {
     report_.version = static_cast<int>(i);
     report_.length = lengthOf(problem_.model.space, states);
     report_.path = std::move(states);
+    if (options_.noteLeftOut) addAll(notesOnJointsToHold(problem_, report_.path), report_.notes);
   }
   if (report_.outcome != SolveOutcome::solved)
     report_.why = discrete() ? "a path was found, but it doesn't join start and goal"

@@ -32,7 +32,8 @@ const Panel = {
     facts.push(['Triangles', data.bodies.reduce((sum, body) => sum + shapes[body.mesh].triangles, 0).toLocaleString('en')]);
     for (const [key, value] of facts) byId('facts').append(make('dt', key), make('dd', value));
     const notes = [...(s && s.other_files ? ['The path was made for other files than those of this problem' + (v.verdict === 'other problem' ? ', and is not verified.' : '.')] : []), ...data.notes];
-    byId('notes').hidden = notes.length === 0;
+    byId('notes').hidden = byId('to-notes').hidden = notes.length === 0;
+    byId('to-notes').textContent = notes.length === 1 ? '1 note' : `${notes.length} notes`;
     for (const note of notes) byId('notes').querySelector('ul').append(make('li', note));
     this.pairs();
   },

@@ -113,6 +113,38 @@ TEST_F(FieldInputs, FilesByAnotherName) {
   }
 }
 
+/// Fingers of a robot without groups move at random: a note says so, unless the user has chosen.
+TEST_F(FieldInputs, JointsThatNeedNotMove) {
+  write("two.urdf",
+        "<robot name='r'><link name='a'/><link name='b'><collision><geometry><sphere "
+        "radius='0.1'/></geometry></collision></link><link name='f'><collision><origin xyz='1 0 "
+        "0'/><geometry><sphere radius='0.1'/></geometry></collision></link><joint name='arm' "
+        "type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/><limit lower='-3' "
+        "upper='3' effort='1' velocity='1'/></joint><joint name='finger' type='revolute'><parent "
+        "link='b'/><child link='f'/><axis xyz='0 1 0'/><limit lower='-1' upper='1' effort='1' "
+        "velocity='1'/></joint></robot>\n");
+  const auto problem = [&](const std::string& robot, const std::string& goal) {
+    write("p.yaml", "format: corridor-problem-1\nrobot: " + robot +
+                        "\nworld: {post: {box: [0.2, 0.2, 1], at: [1, 0, 0]}}\n"
+                        "start: {arm: -1.5, finger: 0.1}\ngoal: {arm: 1.5, finger: " +
+                        goal + "}\n");
+    return run("solve p.yaml").out;
+  };
+  const std::string note = "note: the path moves finger, although start and goal have the same";
+  EXPECT_THAT(problem("two.urdf", "0.1"), HasSubstr(note));
+  EXPECT_THAT(problem("two.urdf", "0.2"), Not(HasSubstr(note)));
+  write("held.yaml", "format: corridor-robot-1\nurdf: two.urdf\nhold: {finger: 0.1}\n");
+  EXPECT_THAT(problem("held.yaml", "0.1"), Not(HasSubstr(note)));
+}
+
+TEST_F(FieldInputs, WhatOtherProgramsHave) {
+  write("p.yaml", read("arm.yaml") + "attached: {cup: {sphere: 0.1}}\n");
+  EXPECT_THAT(
+      run("check p.yaml").err,
+      HasSubstr("p.yaml:7: \"attached\" is not supported yet; add the object to the robot's "
+                "URDF, as a link with a fixed joint"));
+}
+
 TEST_F(FieldInputs, OutputsAtUnusualPlaces) {
   // A symbolic link stays one; the file behind it is written, and keeps its mode.
   write("behind.yaml", "old\n");

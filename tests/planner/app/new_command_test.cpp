@@ -76,7 +76,8 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
             "robot: reach.yaml\n"
             "pairs: 0 adjacent, 1 proved never in contact, 1 in contact in nearly all random "
             "states, 1 others\n"
-            "decide: the pairs that are marked DECIDE in the file; until then hardly any state is "
+            "decide: the pairs that are marked DECIDE in the file, or run this with "
+            "--allow-overlaps; until then hardly any state is "
             "valid\n");
   const std::string file = read("reach.yaml");
   EXPECT_THAT(file, HasSubstr("format: corridor-robot-1\nname: reach\nurdf: reach.urdf\n"));
@@ -98,6 +99,32 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
 }
 
 /// The proved pairs are left out only as long as the robot is the one for which they were proved.
+/// The user decides by an option, or names the joints.
+TEST_F(NewCommand, OptionsReplaceEdits) {
+  ASSERT_EQ(run("new robot reach.urdf -o decide.yaml").status, 0);
+  EXPECT_EQ(run("new problem decide.yaml -o of_reach.yaml").status, 1) << "no state is valid";
+  const Result allowed = run("new robot reach.urdf --allow-overlaps -o allowed.yaml");
+  ASSERT_EQ(allowed.status, 0) << allowed.err;
+  EXPECT_THAT(allowed.out, HasSubstr("\nallowed: 1 pair in contact in nearly all random states"));
+  EXPECT_THAT(read("allowed.yaml"),
+              HasSubstr("\nallow:\n  - [inner, hand]  # in 1,000 of 1,000\n"));
+  ASSERT_EQ(run("new problem allowed.yaml -o of_reach.yaml --force").status, 0);
+  EXPECT_EQ(run("check of_reach.yaml").status, 0);
+
+  ASSERT_EQ(run("new robot reach.urdf --joints elbow -o elbow.yaml").status, 0);
+  EXPECT_THAT(run("inspect elbow.yaml").out, HasSubstr("shoulder 0"));
+  ASSERT_EQ(
+      run("new robot reach.urdf --srdf reach.srdf --joints elbow -o elbow.yaml --force").status, 0);
+  EXPECT_THAT(read("elbow.yaml"), HasSubstr("\njoints: [elbow]\n"));
+  expectFault(
+      "new robot reach.urdf --joints elbow,sholder",
+      "--joints: there is no joint \"sholder\" (did you mean \"shoulder\"?) (known: shoulder, "
+      "elbow)");
+  expectFault("new robot reach.urdf --joints \"to far\"",
+              "--joints: \"to far\" can't be planned for");
+  expectFault("new robot reach.urdf --joints elbow,elbow", "--joints: \"elbow\" is named twice");
+}
+
 TEST_F(NewCommand, ProvedPairsAreTestedAfterAnEdit) {
   ASSERT_EQ(run("new robot reach.urdf -o reach.yaml").status, 0);
   EXPECT_EQ(allowedPairs("reach.yaml"),

@@ -145,7 +145,7 @@ TEST_F(SolveArm, FaultsOfTrajectories) {
   expectFault("solve arm.yaml --deviation 1e-3",
               "--deviation: needs --trajectory, which is not given");
   expectFault("solve arm.yaml arm.yaml --trajectory t.csv",
-              "--trajectory: is a file for one problem, and several are given");
+              "--trajectory: names one file, but there are 2 problems; name a folder");
   expectFault("solve arm.yaml -o t.yaml --trajectory t.yaml",
               "--trajectory: is the file of --output; name another one");
   expectFault("solve arm.yaml --trajectory none/t.csv", "--trajectory: there is no folder none");

@@ -76,6 +76,22 @@ TEST_F(SolveMany, ExitsWithTheWorstStatus) {
   EXPECT_EQ(run("solve problem.yaml arm.yaml --planner RRT --time 1e-9 --quiet").status, 1);
 }
 
+TEST_F(SolveMany, TrajectoriesInAFolder) {
+  const Result result = run("solve problem.yaml arm.yaml --trajectory made -o solved");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("\narm: solved, .*, trajectory of [0-9.]+ s, "));
+  EXPECT_THAT(result.out, testing::ContainsRegex("  medians: .*, trajectory [0-9.]+ ms"));
+  EXPECT_THAT(filesIn("made"), ElementsAre("arm.csv", testing::StartsWith("corridor_test")));
+  EXPECT_EQ(run("verify arm.yaml made/arm.csv").status, 0);
+  expectFault("solve problem.yaml arm.yaml --trajectory made.csv",
+              "--trajectory: names one file, but there are 2 problems; name a folder");
+  // A trajectory that can't be made is not a success.
+  const Result none =
+      run("solve problem.yaml arm.yaml --trajectory made --rate 1 --deviation 1e-9");
+  EXPECT_EQ(none.status, 1) << none.err;
+  EXPECT_THAT(none.out, HasSubstr("trajectory"));
+}
+
 TEST_F(SolveMany, ARangeOfASet) {
   writeSet("set.json", {1, 2, 3, 5});
   const Result result = run("solve set.json#1-3 -o out --picture pictures --jobs 2 --json");

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/benchmark/comparison.h"
+#include "planner/benchmark/contenders.h"
 #include "planner/benchmark/report_plots.h"
 #include "planner/benchmark/report_tables.h"
 #include "tests/planner/benchmark/made_campaign.h"
@@ -72,10 +73,43 @@ TEST_F(Report, TimesAreRelativeToTheFirstVariantThatSolves) {
   }
   EXPECT_THAT(
       page(),
-      HasSubstr(
-          "as a multiple of discrete:0.1’s: the median over 20 runs that both variants solved"));
+      HasSubstr("as a multiple of discrete:0.1’s: the median over 20 runs that both solved"));
   for (CampaignCell& cell : cells_) cell.runs.clear();
   EXPECT_EQ(referenceVariant(cells_), 0u);
+}
+
+/// Several planners are ranked with their variants, and each has lines of its own.
+TEST_F(Report, PlannersAreRanked) {
+  campaign_.planners = {{"RRT", "RRT", {}}, {"PRM", "PRM", {}}};
+  std::vector<CampaignCell> both;  // PRM takes three times as long
+  const std::size_t variants = campaign_.variants.size();
+  for (std::size_t first = 0; first < cells_.size(); first += variants)
+    for (const CampaignPlanner& planner : campaign_.planners)
+      for (std::size_t v = 0; v < variants; ++v) {
+        both.push_back(cells_[first + v]);
+        both.back().planner = planner;
+        for (BenchmarkRun& run : both.back().runs)
+          if (planner.label == "PRM") run.processorTime *= 3;
+      }
+  cells_ = both;
+  const auto [campaign, cells] = contendersOf(campaign_, cells_);
+  ASSERT_EQ(campaign.variants.size(), 2 * variants);
+  EXPECT_EQ(campaign.variants[0].name, "RRT, certified");
+  EXPECT_EQ(campaign.variants[3].name, "PRM, certified");
+  const std::vector<VariantScore> scores = scoresOf(campaign, cells);
+  ASSERT_EQ(scores.size(), 2 * variants);
+  EXPECT_EQ(scores[0].variant, 0u);
+  EXPECT_EQ(scores[1].variant, 3u) << "no path refuted either";
+  EXPECT_DOUBLE_EQ(scores[1].timeRatio, 3);
+  EXPECT_EQ(scores[1].pairs, 20u);
+  const Plot solved = solvedOverTime(campaign, cells, 0);
+  std::set<std::string> names;
+  for (const PlotSeries& line : solved.series) names.insert(line.name);
+  EXPECT_EQ(names.size(), 2 * variants + 1) << "and dashed lines without a name";
+  EXPECT_EQ(profileOfAll(campaign, cells).series.size(), 2 * variants);
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("Planners with their variants without a refuted path come first"));
+  EXPECT_THAT(text, HasSubstr("PRM, certified"));
 }
 
 TEST_F(Report, UnverifiedPathsAreNotPlotted) {
@@ -172,7 +206,7 @@ TEST_F(Report, PlotsOfAllProblems) {
   EXPECT_DOUBLE_EQ(at(2, 9), 0);
   EXPECT_DOUBLE_EQ(at(2, 11), 0.4);
   EXPECT_DOUBLE_EQ(at(2, 21), 0.9);
-  EXPECT_THAT(profile.title, HasSubstr("the 20 runs that every variant has made"));
+  EXPECT_THAT(profile.title, HasSubstr("the 20 runs that all have made"));
 }
 
 /// A variant must not count as the quickest in runs that other variants have not made.
@@ -269,6 +303,7 @@ TEST_F(Report, DescribesTheMeasurement) {
                         {"KPIECE1", "KPIECE1", {}},
                         {"by OMPL", "RRT", {{}}, Simplifier::ompl}};
   campaign_.simplify = Simplifier::none;
+  cells_ = cellsOf(campaign_);
   writeReport(campaign_, cells_, folder_, {{"2026-05-04 03:02:01", "abc", 2, 60}});
   const std::string text = test::contents(folder_ / "report.html");
   for (const char* said :
