@@ -135,9 +135,12 @@ std::vector<std::uint32_t> BroadPhase::overlappingMovers(std::span<const SweptSp
     std::erase_if(open, [&](const Extent& other) { return other.upper < extent.lower; });
     for (const Extent& other : open) {
       const auto [i, j] = std::minmax(extent.mover, other.mover);
-      const auto of = std::ranges::equal_range(partners_[i], j, {}, &Partner::mover);
-      if (of.empty() || clearanceBound(spheres[i], spheres[j], within) > within) continue;
-      for (const Partner& partner : of) found.push_back(partner.pair);
+      const std::vector<Partner>& all = partners_[i];
+      auto of = std::ranges::lower_bound(all, j, {}, &Partner::mover);
+      if (of == all.end() || of->mover != j ||
+          clearanceBound(spheres[i], spheres[j], within) > within)
+        continue;
+      for (; of != all.end() && of->mover == j; ++of) found.push_back(of->pair);
     }
     open.push_back(extent);
   }

@@ -68,16 +68,15 @@ void requireConfiguration(const ConfigurationSpace& space, const Configuration& 
 }  // namespace
 
 Scene makeScene(const Model& model, const Required& need, const TreeParams& params,
-                const Scene* earlier) {
+                std::span<const Body> earlier) {
   requireObstaclesAtRest(model);
   std::vector<Scene::Placed> placed;
   std::vector<std::size_t> firstShape;
   // For each pair of a mesh and `solid`, the index in `placed` of the first body made of it.
   std::map<std::pair<const MeshFile*, bool>, std::size_t> known;
   std::map<std::pair<const TriangleMesh*, bool>, const Body*> made;  // by `earlier`
-  if (earlier)
-    for (const Scene::Placed& body : earlier->bodies())
-      if (body.body.isMesh()) made.try_emplace({&body.body.mesh(), body.body.solid()}, &body.body);
+  for (const Body& body : earlier)
+    if (body.isMesh()) made.try_emplace({&body.mesh(), body.solid()}, &body);
   const auto bodyOf = [&](const PlacedShape& shape) {
     if (!shape.mesh) return Body(shape.name, shape.parts);
     const auto same = made.find({&shape.mesh->mesh, shape.solid});
@@ -159,7 +158,7 @@ class Checker::Pool {
   std::atomic<Workspace*> head_{};    // the workspace that was added last; not owned
 };
 
-Checker::Checker(const Model& model, const CheckerOptions& options, const Scene* earlier)
+Checker::Checker(const Model& model, const CheckerOptions& options, std::span<const Body> earlier)
     : model_(model),
       required_(requiredBy(options, model.space)),
       scene_(makeScene(model, required_, options.trees.params, earlier)),
@@ -181,7 +180,7 @@ Checker::Checker(const Model& model, const CheckerOptions& options, const Scene*
   }
 }
 
-Checker::Checker(const Problem& problem, const Scene* earlier)
+Checker::Checker(const Problem& problem, std::span<const Body> earlier)
     : Checker(problem.model, checkerOptions(problem.task, problem.settings.checker), earlier) {}
 
 Checker::~Checker() = default;

@@ -24,12 +24,12 @@ struct Problem;
 /// are left out if their proof covers it. Queries of the scene are then only for configurations in
 /// `provedBox(model, need)`; `Checker` sees to it.
 /// @param params how the trees of meshes are built, when queries need them.
-/// @param earlier if not null: a scene with the same parameters, whose bodies are used for the same
-/// meshes, with the trees that they have.
+/// @param earlier bodies with the same parameters. They are used for the same meshes, with the
+/// trees that they have.
 /// @throws std::invalid_argument if a body without a robot is on a frame that moves. Such a body
 /// would be taken to be at rest.
 Scene makeScene(const Model& model, const Required& need, const TreeParams& params = {},
-                const Scene* earlier = nullptr);
+                std::span<const Body> earlier = {});
 
 /// The options of a checker: the margin, tube and tolerance of its proofs, the method, the trees.
 struct CheckerOptions {
@@ -83,9 +83,9 @@ class Checker {
   /// - A mesh is invalid, or a solid mesh is not watertight.
   /// @param earlier see `makeScene`
   explicit Checker(const Model& model, const CheckerOptions& options = {},
-                   const Scene* earlier = nullptr);
+                   std::span<const Body> earlier = {});
   /// Makes the checker of a problem's model, with `checkerOptions`.
-  explicit Checker(const Problem& problem, const Scene* earlier = nullptr);
+  explicit Checker(const Problem& problem, std::span<const Body> earlier = {});
   ~Checker();
 
   const Model& model() const { return model_; }

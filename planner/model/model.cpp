@@ -32,6 +32,18 @@ void PairFilter::skipProved(std::size_t a, std::size_t b, PairProof proof) {
   proofs_.insert_or_assign(std::minmax(a, b), std::move(proof));
 }
 
+PairFilter PairFilter::renumbered(const std::vector<std::optional<std::size_t>>& places) const {
+  PairFilter filter;
+  const auto move = [&](const auto& from, auto& to) {
+    for (const auto& [pair, value] : from)
+      if (pair.second < places.size() && places[pair.first] && places[pair.second])
+        to.emplace(std::minmax(*places[pair.first], *places[pair.second]), value);
+  };
+  move(reasons_, filter.reasons_);
+  move(proofs_, filter.proofs_);
+  return filter;
+}
+
 std::string_view PairFilter::whyNotTested(std::size_t a, std::size_t b,
                                           const Required& need) const {
   const auto found = reasons_.find(std::minmax(a, b));

@@ -94,6 +94,10 @@ class PairFilter {
   /// Undoes `skip` for a pair. The pair is then tested, unless the two bodies have the same mover,
   /// or a proof covers the requirements.
   void include(std::size_t a, std::size_t b) { reasons_.erase(std::minmax(a, b)); }
+  /// Returns the filter for other indices of the bodies. The movers must be set anew.
+  /// @param places the new index of each body, or nullopt if the body is gone. A body beyond the
+  /// end of `places` is gone.
+  PairFilter renumbered(const std::vector<std::optional<std::size_t>>& places) const;
   /// Excludes pairs of bodies that never move relative to each other.
   /// @param movers for each body, the frame that moves it (moversOf). Two bodies with the same
   /// mover stand still relative to each other.

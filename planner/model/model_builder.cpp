@@ -252,14 +252,18 @@ std::vector<std::array<std::size_t, 2>> ModelBuilder::allowedBodies() {
   return allowed;
 }
 
+void setMovers(Model& model) {
+  const std::vector<std::size_t> mover = moversOf(model.tree);
+  std::vector<std::size_t> movers;
+  for (const ModelBody& body : model.bodies) movers.push_back(mover[body.frame]);
+  model.filter.setMovers(std::move(movers), fixedPartsOf(model));
+}
+
 Model ModelBuilder::buildForReader() {
   if (!faults_.empty()) throw InputError(std::move(faults_));
   if (!joints_.coordinates.empty()) model_.space.addGroup(std::move(joints_));
   for (std::size_t r = 0; r < model_.robots.size(); ++r) skipLinks(model_, r);
-  const std::vector<std::size_t> mover = moversOf(model_.tree);
-  std::vector<std::size_t> movers;
-  for (const ModelBody& body : model_.bodies) movers.push_back(mover[body.frame]);
-  model_.filter.setMovers(std::move(movers), fixedPartsOf(model_));
+  setMovers(model_);
   Model model = std::move(model_);
   *this = ModelBuilder();
   return model;

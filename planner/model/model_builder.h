@@ -115,6 +115,9 @@ RobotDescription rigidModel(const std::string& name, JointType type,
 PlacedShape shapeOf(std::string name, const Primitive& primitive, const RigidPose& at = {});
 PlacedShape shapeOf(std::string name, TriangleMesh mesh, bool solid = false);
 
+/// Tells the model's filter which bodies never move relative to each other.
+void setMovers(Model& model);
+
 /// Checks that a model has at most 10^7 pairs of bodies.
 /// @param place for the message: the problem's file.
 /// @throws InputError if the model has more pairs.

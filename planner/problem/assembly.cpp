@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "collision/core/fault_list.h"
@@ -35,13 +36,13 @@ std::vector<Note> notesOnFiles(const Owners& owners) {
   return notes;
 }
 
-void addNotesOnPairs(Problem& problem) {
-  std::vector<Note>& notes = problem.source.notes;
-  addAll(notesOnReach(problem), notes);
+/// Returns the notes on the problem's bodies and pairs.
+std::vector<Note> notesOnBodies(const Problem& problem) {
+  std::vector<Note> notes = notesOnReach(problem);
   for (const ModelBody& body : problem.model.bodies)
     for (const PlacedShape& shape : body.shapes) addAll(shape.notes, notes);
   addAll(notesOnFiles(problem.model.bodies), notes);
-  if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
+  return notes;
 }
 
 constexpr std::string_view kNoteOnProofs = " tested: the proof covers a margin of up to ";
@@ -85,6 +86,14 @@ void noteOnPadding(Problem& problem) {
                          std::string(why) + ")",
                      NoteWeight::coverage});
   }
+}
+
+void addNotes(Problem& problem) {
+  noteOnProofs(problem);
+  noteOnPadding(problem);
+  std::vector<Note>& notes = problem.source.notes;
+  addAll(notesOnBodies(problem), notes);
+  if (nothingIsTested(problem)) notes.insert(notes.begin(), {kNothingTested, NoteWeight::coverage});
 }
 
 /// The largest legal length, metres. Larger lengths are refused, because squares of sums of lengths
@@ -169,9 +178,41 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   requireFiniteSizes(problem.model, problem.source.file.string());
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   problem.task.tube = tubeOf(problem.model.space, tube);
-  noteOnProofs(problem);
-  noteOnPadding(problem);
-  addNotesOnPairs(problem);
+  addNotes(problem);
+}
+
+void replaceObstacles(const Problem& base, std::vector<ModelBody> obstacles, Problem& problem) {
+  Model& model = problem.model;
+  model = base.model;
+  std::erase_if(model.bodies, [](const ModelBody& body) { return !body.robot; });
+  std::map<std::string, std::size_t> byName;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) byName[model.bodies[i].name] = i;
+  for (ModelBody& obstacle : obstacles) {
+    if (byName.contains(obstacle.name)) obstacle.name.insert(0, "world/");
+    byName[obstacle.name] = model.bodies.size();
+    model.bodies.push_back(std::move(obstacle));
+  }
+  std::vector<std::optional<std::size_t>> places;  // of the bodies of `base`
+  for (const ModelBody& body : base.model.bodies) {
+    const auto found = byName.find(body.name);
+    places.push_back(found == byName.end() ? std::nullopt : std::optional(found->second));
+  }
+  model.filter = base.model.filter.renumbered(places);
+  setMovers(model);
+  Padding& padding = problem.task.padding = {};
+  for (const auto& [body, metres] : base.task.padding.bodies)
+    if (places[body]) padding.bodies[*places[body]] = metres;
+  for (const auto& [pair, metres] : base.task.padding.pairs)
+    if (places[pair.first] && places[pair.second])
+      padding.pairs[std::minmax(*places[pair.first], *places[pair.second])] = metres;
+  requireFewPairs(model, problem.source.file.string());
+  requireFiniteSizes(model, problem.source.file.string());
+  std::set<std::string> ofBodies{kNothingTested};  // notes on the bodies of `base`
+  for (const Note& note : notesOnBodies(base)) ofBodies.insert(note.text);
+  problem.source.notes = base.source.notes;
+  std::erase_if(problem.source.notes,
+                [&](const Note& note) { return ofBodies.contains(note.text); });
+  addNotes(problem);
 }
 
 void setMargin(Problem& problem, double margin) {

@@ -181,43 +181,17 @@ ProblemPointer edited(const NativeProblem& from, const py::dict& edits) {
   if (edits.contains("params"))
     for (const auto& [key, value] : problem.settings.planner.params)
       origins["planner.params." + key] = "params";
-  return std::make_shared<NativeProblem>(std::move(problem), std::move(origins));
+  return std::make_shared<NativeProblem>(std::move(problem), std::move(origins), from, from.base());
 }
 
-/// Returns a copy of the problem with other obstacles. Pairs of bodies that `allow` excludes stay
-/// excluded, and paddings stay, by the names of the bodies.
+/// Returns a copy of the problem with other obstacles (`replaceObstacles`).
 ProblemPointer withObstacles(const ProblemPointer& from, const py::dict& obstacles) {
-  const Problem& old = from->problem();
-  const Model& before = old.model;
   ModelBuilder builder;
-  for (std::size_t r = 0; r < before.robots.size(); ++r) builder.addRobot(robotOf(before, r));
-  for (const CoordinateGroup& group : before.space.groups())
-    if (group.kind != CoordinateGroup::Kind::joints)
-      builder.bound(group.name, boundsOf(before.space, group));
   addObstacles(builder, obstacles);
-  Problem problem = old;
-  problem.model = built(builder);
-  std::map<std::string, std::size_t> places;
-  for (std::size_t i = 0; i < problem.model.bodies.size(); ++i)
-    places[problem.model.bodies[i].name] = i;
-  std::map<std::size_t, std::size_t> now;  // by the old index
-  for (std::size_t i = 0; i < before.bodies.size(); ++i)
-    if (const auto place = places.find(before.bodies[i].name); place != places.end())
-      now[i] = place->second;
-  AllowedBodies allowed;
-  for (const auto& [a, newA] : now)
-    for (const auto& [b, newB] : now)
-      if (a < b && before.filter.whyNotTested(a, b, Required::beyondProofs()) == "allow")
-        allowed.push_back({newA, newB});
-  problem.task.padding = {};
-  for (const auto& [body, metres] : old.task.padding.bodies)
-    if (now.contains(body)) problem.task.padding.bodies[now.at(body)] = metres;
-  for (const auto& [pair, metres] : old.task.padding.pairs)
-    if (now.contains(pair.first) && now.contains(pair.second))
-      problem.task.padding.pairs[std::minmax(now.at(pair.first), now.at(pair.second))] = metres;
-  finishProblem(allowed, {}, problem);
-  setTube(problem, old.task.tube);
-  return std::make_shared<NativeProblem>(std::move(problem), from->origins(), from);
+  const std::shared_ptr<const NativeProblem> base = from->base() ? from->base() : from;
+  Problem problem = from->problem();
+  replaceObstacles(base->problem(), built(builder).bodies, problem);
+  return std::make_shared<NativeProblem>(std::move(problem), from->origins(), *from, base);
 }
 
 }  // namespace

@@ -87,6 +87,9 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   SolveOptions options;
   options.noteLeftOut = true;
   options.valueOrigins = native.origins();
+  native.checker();  // so that its trees serve the following problems, too
+  const std::vector<Body> meshes = native.meshes();
+  options.earlier = meshes;
   if (trajectory)
     options.trajectory =
         *trajectory == "csv" ? TrajectoryFileKind::csv : TrajectoryFileKind::message;

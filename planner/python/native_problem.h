@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
@@ -27,36 +28,48 @@ inline Code codeOf(bool inBounds, MotionVerdict verdict) {
 class NativeProblem {
  public:
   /// @param origins see SolveOptions::valueOrigins.
-  /// @param earlier a problem with equal meshes and settings of trees, whose trees are used, too;
-  /// may be null.
-  explicit NativeProblem(Problem problem, std::map<std::string, std::string> origins = {},
-                         std::shared_ptr<const NativeProblem> earlier = {})
-      : problem_(std::move(problem)), origins_(std::move(origins)), earlier_(std::move(earlier)) {}
+  explicit NativeProblem(Problem problem, std::map<std::string, std::string> origins = {})
+      : problem_(std::move(problem)), origins_(std::move(origins)) {}
+  /// Makes an edited problem, with the same meshes and settings of trees where they are the same:
+  /// it uses the trees that `from` has.
+  /// @param base the problem before its obstacles were replaced; null if they are its own.
+  NativeProblem(Problem problem, std::map<std::string, std::string> origins,
+                const NativeProblem& from, std::shared_ptr<const NativeProblem> base)
+      : problem_(std::move(problem)),
+        origins_(std::move(origins)),
+        base_(std::move(base)),
+        meshes_(from.meshes()) {}
   NativeProblem(const NativeProblem&) = delete;
   NativeProblem& operator=(const NativeProblem&) = delete;
 
   const Problem& problem() const { return problem_; }
   const std::map<std::string, std::string>& origins() const { return origins_; }
+  const std::shared_ptr<const NativeProblem>& base() const { return base_; }
   /// @throws InputError if a mesh of the problem can't be used.
   const Checker& checker() const {
     const std::lock_guard lock(mutex_);
-    if (!checker_) checker_ = std::make_unique<Checker>(problem_, earlierScene());
-    earlier_.reset();
+    if (!checker_) checker_ = std::make_unique<Checker>(problem_, meshes_);
+    meshes_.clear();  // the checker has those that it uses
     return *checker_;
+  }
+  /// Returns the meshes of the checker, or if there is none yet, those of earlier problems, with
+  /// their trees. They share the trees.
+  std::vector<Body> meshes() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Body> meshes;
+    for (const Body& body : meshes_) meshes.push_back(body.renamed(body.name()));
+    if (checker_)
+      for (const Scene::Placed& placed : checker_->scene().bodies())
+        if (placed.body.isMesh()) meshes.push_back(placed.body.renamed(placed.body.name()));
+    return meshes;
   }
 
  private:
-  /// Returns the scene of the nearest earlier problem that has a checker; null if there is none.
-  const Scene* earlierScene() const {
-    for (const NativeProblem* each = earlier_.get(); each; each = each->earlier_.get())
-      if (each->checker_) return &each->checker_->scene();
-    return nullptr;
-  }
-
   Problem problem_;
   std::map<std::string, std::string> origins_;
-  mutable std::mutex mutex_;
-  mutable std::shared_ptr<const NativeProblem> earlier_;  // until the checker is made
+  std::shared_ptr<const NativeProblem> base_;
+  mutable std::mutex mutex_;          // held for the members below
+  mutable std::vector<Body> meshes_;  // of earlier problems, until the checker is made
   mutable std::unique_ptr<Checker> checker_;
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "collision/core/counters.h"
@@ -36,6 +37,8 @@ struct SolveOptions {
   /// as "planner.name" → "--planner". The keys are planner.name, planner.params.KEY, start and
   /// goal.
   std::map<std::string, std::string> valueOrigins;
+  /// Bodies whose trees are used for the same meshes (`makeScene`).
+  std::span<const Body> earlier;
   /// Called once before planning, after the checkers of states and motions were set. It may replace
   /// them: planner/benchmark does so to measure times, and to use competitors. Tests of start and
   /// goals, and the final certification, always use the `Checker`.

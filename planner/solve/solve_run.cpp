@@ -93,7 +93,7 @@ std::string treesText(const TreeNames& words) {
 SolveRun::SolveRun(const Problem& problem, const SolveOptions& options)
     : problem_(problem),
       options_(options),
-      checker_(problem),
+      checker_(problem, options.earlier),
       space_(std::make_shared<ProblemStateSpace>(problem.model.space)),
       start_(startOf(problem)),
       goals_(goalsOf(problem)) {

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import pickle
 import shutil
 import tempfile
 import threading
@@ -70,14 +71,75 @@ class Camera(unittest.TestCase):
 
     def test_pairs_that_may_touch_still_may(self):
         world = {"table": shapes.box([2, 2, 0.02], shapes.Pose((0, 0, 0.3)))}
-        problem = self.arm(obstacles=world, allow=[("link_3", "table")]) if "link_3" in self.arm().bodies else None
-        names = self.arm().bodies
-        problem = problem or self.arm(obstacles=world, allow=[(name, "table") for name in names])
+        problem = self.arm(obstacles=world, allow=[(name, "table") for name in self.arm().bodies])
         moved = problem.edited(obstacles={"table": shapes.box([3, 3, 0.02], shapes.Pose((0, 0, 0.3)))})
         self.assertEqual(moved.check(START).free.tolist(), problem.check(START).free.tolist())
         self.assertTrue(moved.check(START).free[0])
         other = problem.edited(obstacles={"desk": shapes.box([3, 3, 0.02], shapes.Pose((0, 0, 0.3)))})
         self.assertFalse(other.check(START).free[0])
+
+    def test_what_a_file_says_stays(self):
+        """Bounds, paddings, pairs that the files allow, and a scene's matrix: all as in a file that has the new world,
+        also after a frame without its bodies."""
+        table = {"table": shapes.box([0.8, 0.8, 0.1], shapes.Pose((0.8, 0, 0.1)))}
+        post = {"post": shapes.box([0.1, 0.1, 2], shapes.Pose((0.5, 0.5, 0)))}
+        both = "{table: {box: [0.8, 0.8, 0.1], at: [0.8, 0, 0.1]}, post: {box: [0.1, 0.1, 2], at: [0.5, 0.5, 0]}}"
+        srdf = ["upper_arm", "hand"], ["base", "hand"]  # the first pair is tested again, by the matrix
+        with tempfile.TemporaryDirectory() as folder:
+            write = lambda name, text: (pathlib.Path(folder) / name).write_text(text)
+            write("a.srdf", "<robot name='arm6'>%s</robot>" % "".join(f"<disable_collisions link1='{a}' link2='{b}' reason='User'/>" for a, b in srdf))
+            write("robot.yaml", f"format: corridor-robot-1\nurdf: {ARM}\nsrdf: a.srdf\nallow: [[base, wrist2]]\n")
+            write(
+                "scene.yaml",
+                "world: {collision_objects: []}\nallowed_collision_matrix:\n  entry_names: [upper_arm, hand, post, base]\n  entry_values: [[0, 0, 0, 0],"
+                " [0, 0, 1, 1], [0, 1, 0, 0], [0, 1, 0, 0]]\n",
+            )
+            keys = (
+                "format: corridor-problem-1\nrobot: robot.yaml\nmoveit: {scene: scene.yaml}\nbounds: {lift: [0.2, 1.4]}\n"
+                "allow: [[forearm, post]]\npadding: {bodies: {table: 0.1}, pairs: [[wrist1, table, 0.03]]}\nmargin: 0.001\n"
+                f"start: {{pan: -1, lift: 1, elbow: 1, wrist1: 0, wrist2: 0, wrist3: 0}}\n"
+                f"goal: {{pan: 1, lift: 1, elbow: 1, wrist1: 0, wrist2: 0, wrist3: 0}}\nworld: "
+            )
+            write("problem.yaml", keys + both + "\n")
+            problem = corridor.read_problem(folder)
+            states = np.random.default_rng(5).uniform(-3.1, 3.1, (4000, 6))
+            states[:, 1] = np.random.default_rng(6).uniform(0.1, 1.5, len(states))  # some beyond the bounds
+            wanted = problem.check(states)
+            self.assertGreater(len({int(v) for v in wanted.verdict}), 2)  # free, contact, out of bounds
+            bare = problem.edited(obstacles={})
+            for edited in (
+                problem.edited(obstacles={**table, **post}),
+                bare.edited(obstacles={**table, **post}),
+                bare.edited(obstacles=post).edited(obstacles={**post, **table}, seed=3),
+            ):
+                np.testing.assert_array_equal(edited.bounds, problem.bounds)
+                np.testing.assert_array_equal(edited.check(states).verdict, wanted.verdict)
+                self.assertEqual(sorted(edited.notes), sorted(problem.notes))
+                copied = pickle.loads(pickle.dumps(edited))
+                np.testing.assert_array_equal(copied.check(states).verdict, wanted.verdict)
+            self.assertFalse((bare.check(states).verdict == wanted.verdict).all())
+
+    def test_threads_share_a_problem_and_its_edits(self):
+        far = lambda seed: {"cloud": shapes.points(self.points(seed) + [0, 0, 1.2], 0.02)}
+        problem = self.arm(obstacles=far(1))
+        failures = []
+
+        def use(seed):
+            try:
+                edited = problem.edited(obstacles=far(seed), margin=0.001)
+                first = edited.check(START).verdict[0]
+                if corridor.solve(edited.edited(time=0.2, seed=seed)) is None or edited.edited(seed=1).check(START).verdict[0] != first:
+                    failures.append(seed)
+            except Exception as error:  # noqa: BLE001
+                failures.append(error)
+
+        threads = [threading.Thread(target=use, args=(seed,)) for seed in range(8)]
+        for thread in threads:
+            thread.start()
+        problem.check(START)
+        for thread in threads:
+            thread.join()
+        self.assertEqual(failures, [])
 
     def test_points_near_the_robot(self):
         """Against distances to single points."""

@@ -106,9 +106,9 @@ class Problem:
     def edited(self, **edits: Any) -> Problem:
         """Returns a copy of the problem in which the given values are changed.
 
-        obstacles: shapes by name, which replace all obstacles. Pairs that may touch still may, by their names. The
-        robots' trees are kept, so that the first check takes no time for them: a loop that reads a camera makes each
-        problem from the one before.
+        obstacles: shapes by name, which replace all obstacles. What the problem says of pairs and bodies (pairs that
+        may touch, paddings) holds for obstacles of the same names, also after edits without them. Bounds stay. Trees of
+        meshes that stay are kept: a loop that reads a camera makes each problem from the one before.
         start (J,); goals (J,), or (G, J): a path may end at any of the G goals; margin, m; tube, {"joints": rad or m,
         "slides": m, "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's
         names; time, s; seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m;
@@ -246,7 +246,8 @@ class Problem:
         return _native.clearance(self._native, _array("states", states), _whole("threads", threads, 0))
 
     def near_robot(self, points: ArrayLike, state: ArrayLike, distance: float, threads: int = 0) -> NDArray[np.bool_]:
-        """Returns which points, (N, 3), are at most `distance`, m, from the surface of a link at a state, (J,): (N,).
+        """Returns which points, (N, 3), are inside a solid shape of a link at a state, (J,), or at most `distance`, m,
+        from the surface of a shape: (N,).
 
         A camera sees the robot, too: `points[~problem.near_robot(points, state, 0.03)]` are the other points.
         """
