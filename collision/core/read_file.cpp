@@ -175,7 +175,9 @@ std::string readFile(const std::filesystem::path& file, const std::string& what,
 void requireOwnFormat(std::string_view bytes, const std::filesystem::path& file,
                       const std::string& what) {
   const std::string other = foreignFormat(bytes.substr(0, 64));
-  if (!other.empty()) fail(file.string(), "is " + other + "; " + what + " is needed");
+  if (other.empty()) return;
+  const bool isText = other.starts_with("text");
+  fail(file.string(), "is " + other + "; " + (isText ? "save it in UTF-8" : what + " is needed"));
 }
 
 std::string withLineFeeds(std::string text) {

@@ -47,10 +47,12 @@ std::string decoded(const std::string& text, const std::string& encoding, const 
   char* in = from.data();
   std::size_t left = from.size();
   std::array<char, 65536> part;
-  while (left > 0) {
+  for (bool isLast = false; !isLast;) {
+    isLast = left == 0;  // then iconv writes what it still holds
     char* out = part.data();
     std::size_t room = part.size();
-    const bool isDone = iconv(converter, &in, &left, &out, &room) != static_cast<std::size_t>(-1);
+    const bool isDone = iconv(converter, isLast ? nullptr : &in, &left, &out, &room) !=
+                        static_cast<std::size_t>(-1);
     to.append(part.data(), part.size() - room);
     if (!isDone && errno != E2BIG)
       failAt(text, text.size() - left, file,
@@ -103,6 +105,10 @@ void requireUtf8(std::string_view text, const std::string& file, const std::stri
 std::string xmlAsUtf8(std::string text, const std::string& file) {
   const std::string encoding = declaredEncoding(text);
   const std::string small = lowered(encoding);
+  if (!small.empty() && small != "utf-8" && small != "utf8" && text.starts_with("\xEF\xBB\xBF"))
+    failAt(text, 0, file,
+           "begins with the byte-order mark of UTF-8, but names the encoding " +
+               quotedWord(encoding) + "; correct one of the two");
   if (small.empty() || small == "utf-8" || small == "utf8" || small == "us-ascii") {
     requireUtf8(text, file,
                 ", or name its encoding in the first line, such as <?xml version=\"1.0\" "
@@ -114,7 +120,7 @@ std::string xmlAsUtf8(std::string text, const std::string& file) {
 
 std::string foreignFormat(std::string_view start) {
   using Signature = std::pair<std::string_view, const char*>;
-  static constexpr std::array<Signature, 16> kSignatures{{
+  static constexpr std::array<Signature, 18> kSignatures{{
       {"PK\x03\x04", "a ZIP archive"},
       {"\x1F\x8B", "a gzip archive"},
       {"BZh", "a bzip2 archive"},
@@ -133,6 +139,8 @@ std::string foreignFormat(std::string_view start) {
       {"Kaydara FBX Binary", "an FBX file"},
       {"BLENDER", "a Blender file"},
       {"PXR-USDC", "a USD file"},
+      {std::string_view("\xFF\xFE\0\0", 4), "text in UTF-32"},
+      {std::string_view("\0\0\xFE\xFF", 4), "text in UTF-32"},
       {"\xFF\xFE", "text in UTF-16"},
       {"\xFE\xFF", "text in UTF-16"},
   }};

@@ -61,7 +61,7 @@ class Draft {
   int replace(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
     if (failure_ != 0) return failure_;
     struct stat old {};
-    if (::stat(file.c_str(), &old) == 0) ::fchmod(descriptor_, old.st_mode & 07777);
+    if (::stat(file.c_str(), &old) == 0) ::fchmod(descriptor_, old.st_mode & 0777);
     errno = 0;
     __gnu_cxx::stdio_filebuf<char> buffer(descriptor_, std::ios::out | std::ios::binary);
     std::ostream out(&buffer);
@@ -83,13 +83,14 @@ class Draft {
 int writeDirectly(const std::filesystem::path& file,
                   const std::function<void(std::ostream&)>& write) {
   errno = 0;
-  std::ofstream out(file, std::ios::binary);
+  std::ofstream out(file, std::ios::binary | std::ios::app);
   if (out) write(out);
   if (out) out.close();
   return out ? 0 : errno != 0 ? errno : -1;
 }
 
-/// Returns the file to which a symbolic link leads, which need not exist, or the file itself.
+/// Returns the file to which a symbolic link leads, which need not exist, or the file itself. For
+/// links in a circle, returns one of them.
 std::filesystem::path targetOf(std::filesystem::path file) {
   std::error_code failure;
   for (int links = 0; links < 40 && std::filesystem::is_symlink(file, failure); ++links) {
@@ -98,6 +99,19 @@ std::filesystem::path targetOf(std::filesystem::path file) {
     file = file.parent_path() / next;
   }
   return file;
+}
+
+/// Returns whether a file is the one to which the standard output or the errors go. Its name may be
+/// /dev/stdout, and other programs may write to it, too.
+bool isStandardStream(const std::filesystem::path& file) {
+  struct stat named {
+  }, stream{};
+  if (::stat(file.c_str(), &named) != 0) return false;
+  const auto is = [&](int descriptor) {
+    return ::fstat(descriptor, &stream) == 0 && stream.st_dev == named.st_dev &&
+           stream.st_ino == named.st_ino;
+  };
+  return is(STDOUT_FILENO) || is(STDERR_FILENO);
 }
 
 std::string helpFor(int failure) {
@@ -123,12 +137,16 @@ void writeWhole(const std::filesystem::path& file,
   std::error_code ignored;
   int failure = 0;
   // Renaming a file over a device or a pipe would replace it.
-  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
+  const bool isDevice =
+      std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
+  if (isDevice || isStandardStream(file)) {
     failure = writeDirectly(file, write);
   } else {
     const SignalBlocker wait;
     const std::filesystem::path target = targetOf(file);
-    failure = Draft(target.parent_path()).replace(target, write);
+    failure = std::filesystem::is_symlink(target, ignored)
+                  ? ELOOP
+                  : Draft(target.parent_path()).replace(target, write);
   }
   if (failure != 0)
     throw InputError(

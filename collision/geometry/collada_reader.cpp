@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "collision/core/spelling.h"
 #include "collision/geometry/collada_mesh.h"
@@ -45,6 +46,12 @@ class ColladaReader {
         if (!parts_.contains(geometry))
           document_.note("the geometry" + named(*geometry) +
                          " is in no node of the scene and not read");
+    for (const Element* library : childrenOf(root_, "library_nodes"))
+      for (const Element* node : childrenOf(*library, "node"))
+        if (!read_.contains(node) && hasDescendant(*node, "instance_geometry"))
+          document_.note("the node" + named(*node) +
+                         " of <library_nodes> is in no node of the "
+                         "scene and not read");
     for (const char* const library : {"library_animations", "library_animation_clips"})
       if (const Element* const animations = root_.FirstChildElement(library);
           animations && hasDescendant(*animations, "channel"))
@@ -151,6 +158,7 @@ class ColladaReader {
   }
 
   void readNode(const Element& node, NodePath path, int depth) {
+    read_.insert(&node);
     scene_.visit(depth, xml::childCount(node));
     document_.check(node,
                     {"asset", "matrix", "rotate", "scale", "translate", "instance_camera",
@@ -236,6 +244,7 @@ class ColladaReader {
   SceneMesh scene_;
   Ids geometries_, nodes_, scenes_;
   std::map<const Element*, ScenePart> parts_;
+  std::set<const Element*> read_;  // nodes
 };
 
 }  // namespace

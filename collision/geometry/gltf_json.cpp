@@ -32,6 +32,15 @@ bool isHarmless(std::string_view extension) {
                      [&](std::string_view start) { return afterVendor.starts_with(start); });
 }
 
+/// Returns whether an extension has a prefix of Khronos or of a member, whose names say what the
+/// extensions do.
+bool hasKnownPrefix(std::string_view extension) {
+  static constexpr std::array<std::string_view, 5> prefixes{"KHR_", "EXT_", "MSFT_", "ADOBE_",
+                                                            "FB_"};
+  return std::ranges::any_of(
+      prefixes, [&](std::string_view prefix) { return extension.starts_with(prefix); });
+}
+
 /// Adds a fault for a number other than 0 that is 0 as a double, such as 1e-400: the parser does
 /// not tell.
 void checkNumbers(std::string_view text, MeshFaults& faults) {
@@ -168,7 +177,8 @@ const Json* Document::referred(const Json& object, const char* name, const char*
 }
 
 void Document::checkExtension(const std::string& name, bool isRequired) {
-  if (isHarmless(name)) return;
+  // A required extension is known by its name only: others may do more than their names say.
+  if (isHarmless(name) && (!isRequired || hasKnownPrefix(name))) return;
   if (isRequired)
     fault("the required extension \"" + printable(name) + "\" is not supported" + kWithout);
   else if (name.find("mesh") != name.npos || name == "CESIUM_RTC")

@@ -90,6 +90,12 @@ class GltfReader {
       if (!read_.contains(i) && !member(nodes[i], "mesh").is_null())
         scene_.note("node " + std::to_string(i) + " has a mesh, but is not in the default scene, " +
                     "and not read");
+    std::set<std::uint64_t> placed;
+    for (const Json& node : nodes)
+      if (const auto mesh = document_.whole(node, "mesh", "a node")) placed.insert(*mesh);
+    for (std::uint32_t i = 0; i < parts_.size(); ++i)
+      if (!placed.contains(i))
+        scene_.note("mesh " + std::to_string(i) + " is in no node, and not read");
   }
 
   void readNode(std::uint32_t number, NodePath path, int depth) {

@@ -130,6 +130,13 @@ void requireNoText(const Element& element, MeshFaults& faults) {
                  tag(element) + " has the text " + inQuotes(text->Value()) + "; remove it");
 }
 
+/// Returns whether an attribute with a prefix is known to say nothing about the geometry: those of
+/// XML itself, of schemas, and the numbers by which 3MF names elements.
+static bool isWithoutGeometry(std::string_view attribute) {
+  return attribute.starts_with("xmlns:") || attribute.starts_with("xml:") ||
+         attribute.starts_with("xsi:") || attribute.ends_with(":UUID");
+}
+
 void check(const Element& element, std::initializer_list<std::string_view> children,
            std::initializer_list<std::string_view> attributes, MeshFaults& faults,
            std::vector<std::string>& notes, bool (*isOther)(std::string_view)) {
@@ -162,7 +169,7 @@ void check(const Element& element, std::initializer_list<std::string_view> child
     if (++count > 100) faults.fail(element.GetLineNum(), tag(element) + " has over 100 attributes");
     const std::string_view name = a->Name();
     if (name == "xml:base") faults.add(element.GetLineNum(), "xml:base is not read; remove it");
-    if (contains(attributes, name) || name == "xmlns" || name.find(':') != name.npos) continue;
+    if (contains(attributes, name) || name == "xmlns" || isWithoutGeometry(name)) continue;
     const auto meant = std::find_if(
         attributes.begin(), attributes.end(),
         [&](std::string_view known) { return lowered(known) == lowered(std::string(name)); });

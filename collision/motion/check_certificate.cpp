@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/core/rounding.h"
+#include "collision/motion/relative_motion.h"
 #include "collision/queries/containment.h"
 #include "collision/queries/distance.h"
 

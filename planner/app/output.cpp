@@ -211,7 +211,10 @@ void requireWritable(const std::optional<std::string>& file, const char* option)
   if (!file) return;
   const std::filesystem::path path(*file);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code none;
+  std::error_code none, unusable;
+  // A type of none: neither found nor missing, as for names that are too long.
+  if (std::filesystem::status(path, unusable).type() == std::filesystem::file_type::none)
+    throw InputError(Fault{option, 0, *file + ": " + unusable.message() + "; name another file"});
   if (std::filesystem::is_directory(path, none))
     throw InputError(Fault{option, 0, *file + " is a folder; a file's name is needed"});
   if (!std::filesystem::is_directory(folder, none))

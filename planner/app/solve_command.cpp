@@ -100,8 +100,10 @@ void requireFiles(const SolveArguments& a) {
        {std::pair("--output", &a.output), std::pair("--picture", &a.picture),
         std::pair("--trajectory", &a.trajectory)}) {
     if (!*file || **file == "-") continue;
-    const auto [other, isNew] = files.try_emplace(
-        std::filesystem::weakly_canonical(std::filesystem::absolute(**file)), option);
+    std::error_code failure;  // for links to pipes, such as /dev/stdout
+    const auto place =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(**file), failure);
+    const auto [other, isNew] = files.try_emplace(failure ? **file : place.string(), option);
     if (!isNew)
       throw InputError(Fault{option, 0, "is the file of " + other->second + "; name another one"});
   }

@@ -148,16 +148,21 @@ bool lacksTrajectory(const ordered_json& report) {
 
 int statusOf(const ordered_json& report) {
   const std::string result = report["result"];
-  return result == nameOf(SolveOutcome::solved) && !lacksTrajectory(report) ? kDone
-         : result == kBadInputResult                                        ? kBadInput
-         : result == kFailedResult                                          ? kInternal
-                                                                            : kNegativeResult;
+  return result == nameOf(SolveOutcome::solved)
+             ? (lacksTrajectory(report) ? kNegativeResult : kDone)
+         : result == kBadInputResult ? kBadInput
+         : result == kFailedResult   ? kInternal
+                                     : kNegativeResult;
+}
+
+bool isSolved(const ordered_json& report) {
+  return report["result"] == nameOf(SolveOutcome::solved);
 }
 
 /// Returns the line about one problem.
 std::string lineOf(const ordered_json& report) {
   std::string line = report["result"];
-  if (report.contains("why")) {
+  if (!isSolved(report)) {
     const std::string why = report["why"];
     return line + ": " + why.substr(0, why.find('\n'));
   }
@@ -204,7 +209,7 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
     std::vector<const ordered_json*> solved;
     std::size_t certified = 0;
     for (const ordered_json* report : all)
-      if (statusOf(*report) == kDone) {
+      if (isSolved(*report)) {
         solved.push_back(report);
         certified += (*report)["certified"].get<bool>();
       }

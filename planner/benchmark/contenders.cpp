@@ -2,9 +2,10 @@
 
 namespace corridor {
 
-Contenders contendersOf(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
+std::optional<Contenders> contendersOf(const Campaign& campaign,
+                                       const std::vector<CampaignCell>& cells) {
+  if (campaign.planners.size() < 2) return std::nullopt;
   Contenders all{campaign, cells};
-  if (campaign.planners.size() < 2) return all;
   all.campaign.variants.clear();
   for (const CampaignPlanner& planner : campaign.planners)
     for (const Variant& variant : campaign.variants) {

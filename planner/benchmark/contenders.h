@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/benchmark/campaign.h"
@@ -13,9 +14,12 @@ struct Contenders {
   std::vector<CampaignCell> cells;
 };
 
-/// Returns the contenders: "RRTConnect", or "RRTConnect, fcl" if there are several variants. A run
-/// keeps its problem and its seed, so that the runs of two contenders can be compared in pairs.
-/// @param cells as `cellsOf` orders them.
-Contenders contendersOf(const Campaign& campaign, const std::vector<CampaignCell>& cells);
+/// Returns the contenders of a campaign with several planners: "RRTConnect", or "RRTConnect, fcl"
+/// if there are several variants. A run keeps its problem and its seed, so that the runs of two
+/// contenders can be compared in pairs. Returns nullopt if there are not several planners: the
+/// campaign's variants are then the contenders.
+/// @param cells all of them, as `cellsOf` orders them. They are copied with their runs.
+std::optional<Contenders> contendersOf(const Campaign& campaign,
+                                       const std::vector<CampaignCell>& cells);
 
 }  // namespace corridor

@@ -1,6 +1,7 @@
 #include "planner/benchmark/report.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -55,9 +56,11 @@ class Report {
         sessions_(sessions),
         folder_(folder),
         contenders_(contendersOf(campaign, cells)),
+        ranked_(contenders_ ? contenders_->campaign : campaign),
+        rankedCells_(contenders_ ? contenders_->cells : cells),
         scores_(scoresOf(campaign, cells)),
-        ranked_(scoresOf(contenders_.campaign, contenders_.cells)),
-        reference_(referenceVariant(contenders_.cells)),
+        ranking_(scoresOf(ranked_, rankedCells_)),
+        reference_(referenceVariant(rankedCells_)),
         files_{folder / "report.html"} {}
 
   std::vector<fs::path> write() {
@@ -68,9 +71,9 @@ class Report {
           Fault{(folder_ / "plots").string(), 0, "can't be created: " + failure.message()});
     std::string error, solved, clearance;
     if (campaign_.problems.size() > 1) {
-      const auto& [campaign, cells] = contenders_;
-      if (campaign_.verify) error = figures(figure(refutedShareOfAll(campaign, cells, ranked_)));
-      solved = figures(figure(profileOfAll(campaign, cells)));
+      if (campaign_.verify)
+        error = figures(figure(refutedShareOfAll(ranked_, rankedCells_, ranking_)));
+      solved = figures(figure(profileOfAll(ranked_, rankedCells_)));
     }
     if (campaign_.verify) {
       error += figuresOfEach(timeAgainstRefuted);
@@ -79,7 +82,7 @@ class Report {
       error = clearance = "<p>Paths were not verified.</p>";
     }
     solved += figuresOfEach([&](const Campaign&, const std::vector<CampaignCell>&, std::size_t p) {
-      return solvedOverTime(contenders_.campaign, contenders_.cells, p);
+      return solvedOverTime(ranked_, rankedCells_, p);
     });
     const std::string name = campaign_.name.empty() ? "Comparison" : campaign_.name;
     const std::string page =
@@ -89,9 +92,9 @@ class Report {
                       {"script", std::string(reportFile("report.js"))},
                       {"summary", summary()},
                       {"notes", notes()},
-                      {"first", escapedHtml(contenders_.campaign.variants[reference_].name)},
+                      {"first", escapedHtml(ranked_.variants[reference_].name)},
                       {"pairs", counted(pairs(), "run")},
-                      {"ranking", rankingTable(contenders_.campaign, contenders_.cells, ranked_)},
+                      {"ranking", rankingTable(ranked_, rankedCells_, ranking_)},
                       {"contenders",
                        campaign_.planners.size() > 1 ? "Planners with their variants" : "Variants"},
                       {"error", error},
@@ -114,7 +117,7 @@ class Report {
   }
   std::size_t pairs() const {
     std::size_t most = 0;
-    for (const VariantScore& score : ranked_)
+    for (const VariantScore& score : ranking_)
       if (score.variant != reference_) most = std::max(most, score.pairs);
     return most;
   }
@@ -145,7 +148,7 @@ class Report {
     std::vector<std::string> notes = campaign_.notes;
     if (!canPlot())
       notes.push_back("gnuplot is not installed (Debian's gnuplot-nox), so there are no plots.");
-    if (contenders_.campaign.variants.size() > kPlotColors)
+    if (ranked_.variants.size() > kPlotColors)
       notes.push_back("There are more lines than colours: from the " +
                       std::to_string(kPlotColors + 1) + "th on the colours repeat.");
     if (campaign_.planners.size() > kPlotShapes)
@@ -227,9 +230,11 @@ class Report {
   const std::vector<CampaignCell>& cells_;
   const std::vector<CampaignSession>& sessions_;
   fs::path folder_;
-  Contenders contenders_;
-  std::vector<VariantScore> scores_, ranked_;  // of the variants, and of the contenders
-  std::size_t reference_;                      // a contender
+  std::optional<Contenders> contenders_;
+  const Campaign& ranked_;  // its variants are ranked
+  const std::vector<CampaignCell>& rankedCells_;
+  std::vector<VariantScore> scores_, ranking_;  // of the variants, and of what is ranked
+  std::size_t reference_;                       // of what is ranked
   std::vector<fs::path> files_;
   std::set<std::string> plots_;  // names of plots that are already used
 };

@@ -62,15 +62,11 @@ class EnclosureTest {
 
 std::vector<EnclosedBody> enclosedBodies(const Checker& checker, const Configuration& q) {
   requireStandardFloatingPoint();
-  const std::vector<ModelBody>& bodies = checker.model().bodies;
-  std::vector<std::size_t> bodyOf;  // of each shape of the scene
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    bodyOf.resize(bodyOf.size() + bodies[i].shapes.size(), i);
   EnclosureTest test(checker, q);
   std::vector<EnclosedBody> found;
   for (const Scene::Pair& pair : checker.scene().pairs())
     for (const auto& [outer, inner] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
-      if (test(outer, inner)) found.push_back({bodyOf[outer], bodyOf[inner]});
+      if (test(outer, inner)) found.push_back({checker.bodyOf(outer), checker.bodyOf(inner)});
   return found;
 }
 
@@ -78,9 +74,10 @@ std::vector<Note> notesOnStart(const Checker& checker, const Configuration& q) {
   std::vector<Note> notes = notesOnFixedPairs(checker, q);
   const std::vector<ModelBody>& bodies = checker.model().bodies;
   std::vector<std::string> names;
-  std::string outer, key;
+  std::string key;
   for (const EnclosedBody& pair : enclosedBodies(checker, q)) {
-    names.push_back(bodies[pair.inner].name + " in " + bodies[pair.outer].name);
+    const std::string name = bodies[pair.inner].name + " in " + bodies[pair.outer].name;
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     if (key.empty())
       key = isLink(checker.model(), pair.outer)
                 ? "solid: true in robot.yaml, for all links or some,"

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <map>
 #include <numbers>
 #include <queue>
@@ -69,10 +70,11 @@ std::vector<NeverInContactResult> firstAttempts(const NeverInContact& prover,
       results[i] = prover.prove(pairs[wanted[i]].a, pairs[wanted[i]].b,
                                 limitsOf(options, boxes, UINT64_MAX / kMostTestsPerBox), context);
   };
-  std::vector<std::jthread> threads;
+  std::vector<std::future<void>> threads;
   for (unsigned i = 1; i < std::thread::hardware_concurrency() && i < wanted.size(); ++i)
-    threads.emplace_back(work);
+    threads.push_back(std::async(std::launch::async, work));
   work();
+  for (std::future<void>& thread : threads) thread.get();  // throws what the thread has thrown
   return results;
 }
 

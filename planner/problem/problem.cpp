@@ -26,8 +26,10 @@ Problem readProblem(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path, none))
     return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path);
   const std::filesystem::path file = path / "problem.yaml";
-  if (!std::filesystem::exists(file, none))
-    throw InputError(Fault{path.string(), 0, "no problem.yaml in this folder"});
+  if (std::error_code failure; !std::filesystem::exists(file, failure))
+    throw InputError(Fault{path.string(), 0,
+                           failure ? "this folder can't be read: " + failure.message()
+                                   : "no problem.yaml in this folder"});
   return readProblemYaml(file);
 }
 

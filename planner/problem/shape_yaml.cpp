@@ -34,7 +34,7 @@ MeshFileOptions readMeshOptions(const YamlMap& map) {
 /// error of the mesh reader.
 bool mayBeCloud(const std::filesystem::path& file, std::string_view why) {
   const std::string extension = lowered(file.extension().string());
-  if (extension == ".ply") return why.find("face") != why.npos;
+  if (extension == ".ply") return why.find("no element \"face\"") != why.npos;
   return extension == ".pcd" || extension == ".xyz" || extension == ".pts" || extension == ".asc";
 }
 

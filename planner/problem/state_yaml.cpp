@@ -17,7 +17,7 @@ namespace corridor {
 namespace {
 
 constexpr const char* kHowToPlanForIt =
-    "; to plan for it, choose it by joints or group in the robot's file, and remove it from hold";
+    "; give it another value by hold in the robot's file, or plan for it by joints or group";
 
 }  // namespace
 
@@ -188,8 +188,11 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
           const auto number = map.number(entry.key);
           const double value = number.value_or(0) * (degrees ? std::numbers::pi / 180 : 1);
           if (number && !(std::abs(value - held->second) <= equalUpToRounding(held->second)))
-            map.fault(entry.key, "is held at " + shortest(held->second) + ", and not planned for" +
-                                     kHowToPlanForIt);
+            map.fault(entry.key,
+                      joint.lower == joint.upper
+                          ? "its limits are equal: " + shortest(joint.lower) + " is its only value"
+                          : "is held at " + shortest(held->second) + ", and not planned for" +
+                                kHowToPlanForIt);
           return;
         }
         if (setup.heldPoses.contains(j))

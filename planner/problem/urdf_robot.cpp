@@ -284,6 +284,9 @@ void readSolid(const YamlMap& file, RobotDescription& model) {
     const auto words = readWords(*value, "such as [hand, finger]", "solid", file.source());
     if (!words) return;
     names = *words;
+  } else if (value->text != "true" && value->text != "false") {
+    return file.fault("solid", "true, false, or a list of links such as [hand] is needed, not " +
+                                   described(*value));
   } else if (!file.boolean("solid").value_or(false)) {
     return;
   }
@@ -413,6 +416,15 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
     addAll(setup.robot.description.notes, notesOfFaulty);
     return std::nullopt;
   }
+  std::vector<std::string> unweighted;
+  for (const auto& [joint, weight] : setup.robot.jointWeights)
+    if (const auto j = findJoint(setup.robot.description, joint);
+        j && std::find(active.begin(), active.end(), *j) == active.end())
+      unweighted.push_back(joint);
+  if (!unweighted.empty())
+    setup.robot.description.notes.push_back({"weights of " + joinedFirst(unweighted) +
+                                                 " are not used: these joints are not planned for",
+                                             NoteWeight::detail});
   for (const auto& [j, value] : setup.robot.held) setup.robot.heldByFile.insert(j);
   for (const auto& [j, pose] : setup.robot.heldPoses) setup.robot.heldByFile.insert(j);
   chooseJoints(setup.robot, active);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -14,7 +15,9 @@
 
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
+#include "collision/core/shortest.h"
 #include "collision/core/text_encoding.h"
+#include "planner/problem/number_text.h"
 
 namespace corridor {
 namespace {
@@ -103,8 +106,13 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& text) override {
-    requireNoTag(mark, tag, YamlValue::Kind::Scalar);
     YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
+    if (const auto radians = radiansOf(mark, tag, text)) {
+      scalar.text = *radians;
+      scalar.isPlain = true;
+      return put(std::move(scalar));
+    }
+    requireNoTag(mark, tag, YamlValue::Kind::Scalar);
     scalar.text = text;
     scalar.isPlain = isPlainTag(tag);
     if (!scalar.isPlain) checkQuotes(mark);
@@ -147,6 +155,24 @@ class TreeBuilder : public YAML::EventHandler {
   void requireNoTag(const YAML::Mark& mark, const std::string& tag, YamlValue::Kind kind) const {
     if (!saysNothing(tag, kind))
       fail(mark, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it");
+  }
+
+  /// Returns the number in radians for the tags of ROS, as in `max_velocity: !degrees 120.0`;
+  /// nullopt for other scalars. The tags count in joint limits (`max_…`, `min_…`); elsewhere, the
+  /// fault says what to write.
+  std::optional<std::string> radiansOf(const YAML::Mark& mark, const std::string& tag,
+                                       const std::string& text) const {
+    double number = 0;
+    const bool isDegrees = tag == "!degrees";
+    if ((!isDegrees && tag != "!radians") || !parseNumber(text, Range::Any, number).empty())
+      return std::nullopt;
+    const std::string radians = isDegrees ? shortest(number * (std::numbers::pi / 180)) : text;
+    const std::string key = open_.empty() || open_.back().value.entries.empty()
+                                ? ""
+                                : open_.back().value.entries.back().key;
+    if (key.starts_with("max_") || key.starts_with("min_")) return radians;
+    fail(mark,
+         "tags (" + tag + ") are read in joint limits only; write " + radians + ", in radians");
   }
 
   /// Refuses quotes that are not closed: yaml-cpp takes the rest of the file as part of the value.

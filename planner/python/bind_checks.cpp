@@ -96,11 +96,11 @@ py::array_t<bool> nearRobot(const NativeProblem& problem, const Array& points, c
   forEachUnlocked(all.size(), threads, [&](std::size_t i) {
     thread_local QueryContext context;
     out[i] = false;
+    const Body point("point", ConvexPart{{all[i]}, 0});
     for (std::size_t k = 0; k < links.size() && !out[i]; ++k) {
       if ((all[i].array() < boxes[k].lower.array()).any() ||
           (all[i].array() > boxes[k].upper.array()).any())
         continue;
-      const Body point("point", ConvexPart{{all[i]}, 0});
       out[i] = closerThan(Posed<Body>(point), links[k], distance, context);
     }
   });

@@ -206,7 +206,9 @@ std::optional<UrdfLimit> readLimit(XmlFile& file, Element& joint, std::optional<
     notes.push_back({file.at(limit.line, owner + ": <limit> has no " + joined(missing))});
   if (ranged || type == JointType::continuous)
     file.checkLeaf(*element, {"lower", "upper", "effort", "velocity"}, owner, notes);
-  if (type == JointType::continuous && limit.lower.value_or(0) < limit.upper.value_or(0))
+  // Many programs write 0 and 0.
+  if (type == JointType::continuous &&
+      (limit.lower.value_or(0) != 0 || limit.upper.value_or(0) != 0))
     notes.push_back({file.at(limit.line, owner + ": is continuous, so lower and upper of its "
                                                  "<limit> are not used; a joint that they limit is "
                                                  "of type revolute"),
@@ -233,9 +235,18 @@ std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::str
 
 /// Reads the soft limits of <safety_controller>, and narrows the joint's limits by them if `apply`
 /// is true. @returns whether the soft limits are narrower and were not applied.
-bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owner,
-            UrdfJoint& joint) {
+bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owner, UrdfJoint& joint,
+            std::vector<Note>& notes) {
   Element* const safety = element.FirstChildElement("safety_controller");
+  const auto isGiven = [&](const char* limit) {
+    return safety->FindAttribute(limit) && safety->DoubleAttribute(limit) != 0;
+  };
+  if (safety && joint.type == JointType::continuous &&
+      (isGiven("soft_lower_limit") || isGiven("soft_upper_limit")))
+    notes.push_back({file.at(safety->GetLineNum(),
+                             owner + ": is continuous, so its soft limits are not used; a joint "
+                                     "that they limit is of type revolute"),
+                     NoteWeight::motion});
   if (!safety || !joint.limit) return false;
   if (joint.type != JointType::revolute && joint.type != JointType::prismatic) return false;
   const Numbers softLower = file.numbers(*safety, "soft_lower_limit", 1, owner);
@@ -269,8 +280,11 @@ UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
   joint.rpy = readOrigin(file, element, owner, notes);
   checkAxis(file, element, joint.type, owner, notes);
   joint.limit = readLimit(file, element, joint.type, owner, notes);
-  if (narrow(file, element, rules.softLimits, owner, joint)) soft.push_back(joint.name);
+  if (narrow(file, element, rules.softLimits, owner, joint, notes)) soft.push_back(joint.name);
   joint.mimic = readMimic(file, element, owner, notes);
+  if (joint.mimic && joint.type == JointType::fixed)
+    notes.push_back({file.at(joint.line, owner + ": is fixed, so its <mimic> is not used"),
+                     NoteWeight::motion});
   return joint;
 }
 

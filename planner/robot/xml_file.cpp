@@ -280,8 +280,9 @@ void XmlFile::checkChildren(Element& parent, const std::vector<std::string>& rea
     if (near && contains(read, *near))
       fault(element->GetLineNum(), unknown + hint);
     else if (collisionIn(*element))
-      fault(element->GetLineNum(),
-            unknown + ", and the collision geometry in it would be lost" + hint);
+      fault(element->GetLineNum(), unknown + ", and the collision geometry in it would be lost" +
+                                       hint +
+                                       "; move it into the <collision> of its link, or remove it");
     else if (local != name && contains(read, local) && noted.size() < mostNames &&
              noted.insert(name).second)
       notes.push_back({at(element->GetLineNum(), owner + ": <" + name +

@@ -14,6 +14,14 @@
 namespace corridor {
 namespace {
 
+/// Returns what to do about a held joint for which a file has another value than the problem.
+std::string howToHold(const JointModel& joint, double value) {
+  return joint.lower == joint.upper
+             ? "the limits of the joint are equal, so " + shortest(joint.lower) +
+                   " is its only value"
+             : "in the robot's file, write hold: {" + joint.name + ": " + shortest(value) + "}";
+}
+
 using Meaning = JointNames::Meaning;
 using TableRow = TrajectoryTable::Row;
 
@@ -168,10 +176,8 @@ class UnplannedCheck {
         quotedWord(joint.name) + " is held at " + shortest(held) + " in the problem, but is ";
     if (lower == upper)
       faults_.add(rows_.file, row.line,
-                  isHeld + shortest(lower) +
-                      " here: the proof would be about another robot; in the robot's file, write "
-                      "hold: {" +
-                      jointOf(joint.meaning).name + ": " + shortest(lower) + "}");
+                  isHeld + shortest(lower) + " here: the proof would be about another robot; " +
+                      howToHold(jointOf(joint.meaning), lower));
     else
       faults_.add(rows_.file, row.line,
                   isHeld + shortest(lower) + " to " + shortest(upper) + " in this file; " +
@@ -272,9 +278,8 @@ void checkStart(const TrajectoryTable& table, const JointNames& names, const Mod
       if (std::abs(off) <= equalUpToRounding(value)) continue;
       if (meaning->kind == Meaning::Kind::held)
         fault(quotedWord(name) + " is held at " + shortest(required) + " in the problem, but is " +
-              shortest(value) +
-              " here: the proof would be about another robot; in the robot's file, write hold: {" +
-              joint.name + ": " + shortest(value) + "}");
+              shortest(value) + " here: the proof would be about another robot; " +
+              howToHold(joint, value));
       else
         fault(quotedWord(name) + " is " + shortest(value) + ", and " + shortest(required) +
               " by the rule of this mimic joint: the proof would be for the rule; leave the value "

@@ -20,7 +20,7 @@ from . import _native, workers
 from ._arguments import _array, _file, _flag, _number, _text, _whole
 from .certificates import Certificate, certificate_of
 from .results import Results
-from .robots import _pair, _shapes
+from .robots import _obstacles, _pair
 from .shapes import Shape
 
 _solving = threading.Lock()  # OMPL has one generator of random numbers per process
@@ -262,12 +262,6 @@ class Problem:
         return _frame(self.page())
 
 
-def _obstacles(obstacles: Mapping[str, Shape | Iterable[Shape]] | None) -> dict[str, list[Shape]]:
-    if obstacles is not None and not isinstance(obstacles, Mapping):
-        raise TypeError(f"obstacles: shapes by name are needed, such as {{'table': shape}}, not {obstacles!r}")
-    return {_text("obstacles", name): _shapes(shapes) for name, shapes in (obstacles or {}).items()}
-
-
 def _made(recipe: tuple[Any, ...]) -> _native.Problem:
     """Makes a problem without edits."""
     if recipe[0] == "world":
@@ -290,9 +284,7 @@ def _restored(recipe: tuple[Any, ...], edits: dict[str, Any], fingerprint: str) 
     problem = object.__new__(Problem)
     problem._set(recipe, edits)
     if problem._native.fingerprint != fingerprint:
-        raise ValueError(
-            f"{problem.name}: its files have changed since it was pickled, so its proofs are about another problem"
-        )
+        raise ValueError(f"{problem.name}: its files have changed since it was pickled, so its proofs are no longer about it")
     return problem
 
 

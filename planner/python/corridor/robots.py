@@ -154,3 +154,9 @@ def _joint(joint: Joint) -> dict[str, Any]:
         "velocity": None if joint.velocity is None else _numbers(f"{what}: velocity", [joint.velocity], 1)[0],
         "mimic": mimic,
     }
+
+
+def _obstacles(obstacles: Mapping[str, Shape | Iterable[Shape]] | None) -> dict[str, list[Shape]]:
+    if obstacles is not None and not isinstance(obstacles, Mapping):
+        raise TypeError(f"obstacles: shapes by name are needed, such as {{'table': shape}}, not {obstacles!r}")
+    return {_text("obstacles", name): _shapes(shapes) for name, shapes in (obstacles or {}).items()}

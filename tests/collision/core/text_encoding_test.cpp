@@ -97,6 +97,9 @@ TEST(TextEncoding, WrongEncodingsOfXml) {
             "a.xml:3: is not in UTF-8 (byte 0xE9)" + advice);
   EXPECT_EQ(complaint(declared("EUC-JP", "<a/>\n\xFF")),
             "a.xml:3: is not in EUC-JP, the encoding that its first line names");
+  EXPECT_EQ(complaint("\xEF\xBB\xBF" + declared("ISO-8859-1", "<a/>")),
+            "a.xml:1: begins with the byte-order mark of UTF-8, but names the encoding "
+            "\"ISO-8859-1\"; correct one of the two");
   for (const std::string encoding : {"no-such", "UTF-8//TRANSLIT", "../x", "a b"})
     EXPECT_EQ(complaint(declared(encoding, "<a/>")),
               "a.xml:1: the encoding \"" + encoding + "\" is not known; save the file in UTF-8");

@@ -12,8 +12,9 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 TEST_F(Gltf, RequiredExtensions) {
-  for (const std::string name : {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
-                                 "KHR_draco_mesh_compression", "FOO_bar"}) {
+  for (const std::string name :
+       {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+        "FOO_bar", "ACME_materials_displacement"}) {
     const std::string list = "[\"KHR_materials_unlit\", \"" + name + "\"]";
     EXPECT_EQ(fault(gltf(", \"extensionsUsed\": " + list + ", \"extensionsRequired\": " + list)),
               "the required extension \"" + name + "\" is not supported; save the mesh without it");
@@ -316,6 +317,10 @@ TEST_F(Gltf, MeshesOutsideTheSceneAreNoted) {
   std::string without = gltf("", R"({"mesh": 0}, {"mesh": 0})");
   without.erase(without.find("\"scene\": 0, "), 12);
   EXPECT_THAT(notesOf("a.gltf", without), ElementsAre(outside));
+  const std::string unplaced = gltf("", R"({"mesh": 1})");
+  EXPECT_THAT(
+      notesOf("a.gltf", with(unplaced, R"("meshes": [)", R"("meshes": [{"primitives": []}, )")),
+      testing::Contains("mesh 0 is in no node, and not read"));
   EXPECT_THAT(notesOf("a.gltf", gltf("", R"({"children": [2]}, {"name": "camera"}, {"mesh": 0})")),
               IsEmpty());
 }

@@ -289,6 +289,13 @@ TEST_F(ColladaContent, Notes) {
               ElementsAre("the geometry \"h\"" + unplaced));
   EXPECT_THAT(notesWith(&ColladaParts::inLibrary, "<geometry><mesh/></geometry>"),
               ElementsAre("the geometry" + unplaced));
+  EXPECT_THAT(
+      notesWith(
+          &ColladaParts::libraries,
+          "<library_nodes><node id=\"n\"><instance_geometry url=\"#g\"/></node></library_nodes>"),
+      ElementsAre("the node \"n\" of <library_nodes>" + unplaced));
+  EXPECT_THAT(notesWith(&ColladaParts::node, "<node my:scale=\"2\" xml:lang=\"en\"/>"),
+              ElementsAre("the attribute \"my:scale\" of <node> is not read"));
   const std::string physics =
       "<library_physics_models><physics_model id='p'><rigid_body sid='r'><technique_common><shape>"
       "<box><half_extents>1 1 1</half_extents></box></shape></technique_common></rigid_body>"

@@ -126,15 +126,19 @@ TEST_F(FieldInputs, JointsThatNeedNotMove) {
   const auto problem = [&](const std::string& robot, const std::string& goal) {
     write("p.yaml", "format: corridor-problem-1\nrobot: " + robot +
                         "\nworld: {post: {box: [0.2, 0.2, 1], at: [1, 0, 0]}}\n"
-                        "start: {arm: -1.5, finger: 0.1}\ngoal: {arm: 1.5, finger: " +
-                        goal + "}\n");
-    return run("solve p.yaml").out;
+                        "start: {arm: -1.5, finger: 0.1}\ngoal: " +
+                        goal + "\n");
+    const Result result = run("solve p.yaml");
+    EXPECT_EQ(result.status, 0) << result.err << result.out;
+    return result.out;
   };
   const std::string note = "note: the path moves finger, although start and goal have the same";
-  EXPECT_THAT(problem("two.urdf", "0.1"), HasSubstr(note));
-  EXPECT_THAT(problem("two.urdf", "0.2"), Not(HasSubstr(note)));
+  EXPECT_THAT(problem("two.urdf", "{arm: 1.5, finger: 0.1}"), HasSubstr(note));
+  EXPECT_THAT(problem("two.urdf", "{arm: 1.5, finger: 0.2}"), Not(HasSubstr(note)));
+  EXPECT_THAT(problem("two.urdf", "[{arm: 1.5, finger: 0.1}, {arm: 1.4, finger: 0.2}]"),
+              Not(HasSubstr(note)));
   write("held.yaml", "format: corridor-robot-1\nurdf: two.urdf\nhold: {finger: 0.1}\n");
-  EXPECT_THAT(problem("held.yaml", "0.1"), Not(HasSubstr(note)));
+  EXPECT_THAT(problem("held.yaml", "{arm: -0.8, finger: 0.1}"), Not(HasSubstr(note)));
 }
 
 TEST_F(FieldInputs, WhatOtherProgramsHave) {
@@ -161,6 +165,16 @@ TEST_F(FieldInputs, OutputsAtUnusualPlaces) {
   const std::string longest = std::string(250, 'n') + ".yaml";
   EXPECT_EQ(run("solve arm.yaml -o " + longest).status, 0) << "255 bytes";
   EXPECT_EQ(run("verify arm.yaml " + longest).status, 0);
+  // What other programs have written to the standard output stays.
+  write("log.txt", "before\n");
+  const std::string program = "cd '" + folder_.string() + "' && '" CORRIDOR_PROGRAM "' ";
+  EXPECT_EQ(std::system((program + "solve arm.yaml --quiet -o /dev/stdout >> log.txt").c_str()), 0);
+  EXPECT_THAT(read("log.txt"), testing::StartsWith("before\n"));
+  EXPECT_THAT(read("log.txt"), HasSubstr("format: corridor-solution"));
+  fs::create_symlink("b.yaml", folder_ / "a.yaml");
+  fs::create_symlink("a.yaml", folder_ / "b.yaml");
+  EXPECT_EQ(run("solve arm.yaml -o a.yaml").status, 2);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "a.yaml"));
   // Nothing else is left in the folder.
   for (const auto& entry : fs::directory_iterator(folder_))
     EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr(".tmp")));
@@ -180,6 +194,46 @@ TEST_F(FieldInputs, PipesAndDeletedFolders) {
                                 "/out.txt 2>" + here + "/err.txt")
                                    .c_str());
   EXPECT_EQ(WEXITSTATUS(gone), 2) << read("err.txt");
+}
+
+/// What a stranger's inputs found: values that were dropped in silence, and advice that failed.
+TEST_F(FieldInputs, LimitsAndWeights) {
+  const auto robot = [&](const std::string& more) {
+    return "<robot name='r'><link name='a'/><link name='b'><collision><geometry><sphere "
+           "radius='0.1'/></geometry></collision></link><link name='c'/><joint name='eq' "
+           "type='prismatic'><parent link='b'/><child link='c'/><limit lower='0.3' upper='0.3' "
+           "effort='1' velocity='1'/></joint><joint name='turn' type='continuous'><parent "
+           "link='a'/><child link='b'/>" +
+           more + "</joint></robot>\n";
+  };
+  write("soft.urdf", robot("<safety_controller k_velocity='1' soft_lower_limit='-1' "
+                           "soft_upper_limit='1'/>"));
+  EXPECT_THAT(run("inspect soft.urdf").out,
+              HasSubstr("is continuous, so its soft limits are not used"));
+  write("limit.urdf", robot("<limit lower='1' upper='-1' effort='1' velocity='1'/>"));
+  EXPECT_THAT(run("inspect limit.urdf").out, HasSubstr("<limit> are not used"));
+  write("weights.yaml",
+        "format: corridor-robot-1\nurdf: limit.urdf\nweights: {joints: {eq: 2, turn: 3}}\n");
+  EXPECT_THAT(run("inspect weights.yaml").out, HasSubstr("weights of eq are not used"));
+  write("p.yaml",
+        "format: corridor-problem-1\nrobot: limit.urdf\nworld: {}\nstart: {turn: 0, eq: 0}\n"
+        "goal: {turn: 1}\n");
+  EXPECT_THAT(run("check p.yaml").err,
+              HasSubstr("start.eq: its limits are equal: 0.3 is its only value"));
+  write("p.yaml",
+        "format: corridor-problem-1\nrobot: limit.urdf\nworld: {}\nstart: {turn: 0}\n"
+        "goal: {turn: 1}\nlimits: {file: jl.yaml}\n");
+  write("rows.csv", "time,turn,eq\n0,0,0\n1,1,0\n");
+  EXPECT_THAT(run("verify p.yaml rows.csv").err, Not(HasSubstr("hold")));
+  // The tags of ROS.
+  write("jl.yaml",
+        "joint_limits:\n  turn: {has_velocity_limits: true, max_velocity: !degrees 90.0}\n");
+  const Result solved = run("solve p.yaml --trajectory t.csv --json");
+  ASSERT_EQ(solved.status, 0) << solved.err;
+  const double seconds =
+      nlohmann::json::parse(solved.out)["problems"][0]["trajectory"]["duration_s"];
+  EXPECT_GT(seconds, 1 / 1.5708) << "1 rad at 90° per second";
+  EXPECT_LT(seconds, 10);
 }
 
 /// The inputs that are kept beside the project (CORRIDOR_DATA/reports), with their right answers.

@@ -98,7 +98,6 @@ TEST_F(NewCommand, WritesARobotWithItsPairs) {
             std::vector<std::string>({"far, hand: robot.yaml: never_in_contact"}));
 }
 
-/// The proved pairs are left out only as long as the robot is the one for which they were proved.
 /// The user decides by an option, or names the joints.
 TEST_F(NewCommand, OptionsReplaceEdits) {
   ASSERT_EQ(run("new robot reach.urdf -o decide.yaml").status, 0);
@@ -125,6 +124,7 @@ TEST_F(NewCommand, OptionsReplaceEdits) {
   expectFault("new robot reach.urdf --joints elbow,elbow", "--joints: \"elbow\" is named twice");
 }
 
+/// The proved pairs are left out only as long as the robot is the one for which they were proved.
 TEST_F(NewCommand, ProvedPairsAreTestedAfterAnEdit) {
   ASSERT_EQ(run("new robot reach.urdf -o reach.yaml").status, 0);
   EXPECT_EQ(allowedPairs("reach.yaml"),

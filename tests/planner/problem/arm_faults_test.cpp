@@ -39,8 +39,8 @@ TEST_F(ArmFaults, States) {
       "pan, lift, slide)");
   EXPECT_EQ(
       start("{pan: 1, lift: 0, slide: 0.02, wrist: 1, follow: 0}"),
-      "problem.yaml:5: start.slide: is held at 0.01, and not planned for; to plan for it, choose "
-      "it by joints or group in the robot's file, and remove it from hold\n"
+      "problem.yaml:5: start.slide: is held at 0.01, and not planned for; give it another value by "
+      "hold in the robot's file, or plan for it by joints or group\n"
       "problem.yaml:5: start.wrist: is fixed\n"
       "problem.yaml:5: start.follow: follows slide (mimic); give only that joint");
   EXPECT_EQ(start("{pan: 1, lift: 0, slide: 0.01}"), "no complaint") << "its held value";

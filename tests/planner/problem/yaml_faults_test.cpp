@@ -68,6 +68,9 @@ TEST_F(YamlFaults, TagsAreNotRead) {
   EXPECT_EQ(with("allow: !!map []\n"), fault("8", "!!map"));
   EXPECT_EQ(with("margin: !cm\n"), fault("8", "!cm"));
   EXPECT_EQ(with("!cm margin: 1\n"), fault("8", "!cm"));
+  EXPECT_EQ(with("tube: {joints: !degrees 90}\n"),
+            "problem.yaml:8: tags (!degrees) are read in joint limits only; write "
+            "1.5707963267948966, in radians");
   EXPECT_EQ(with("planner: !!map {name: !!str RRT}\nallow: !!seq []\n"), "no complaint");
   EXPECT_EQ(with("margin: !!float 0.1\nallow: !!python/tuple []\nseed: !!int 3\n"), "no complaint");
 }

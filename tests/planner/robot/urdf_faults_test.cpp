@@ -298,21 +298,24 @@ TEST_F(UrdfFaults, Geometry) {
 }
 
 TEST_F(UrdfFaults, ElementsThatWouldBeIgnored) {
-  const std::string of = "r.urdf:2: link \"a\": ";
+  const std::string of = "r.urdf:2: link \"a\": ",
+                    move = "; move it into the <collision> of its link, or remove it";
   EXPECT_EQ(complaintOfParts(link("a", "<colision/>") + "<lnk name=\"b\"/>"),
             of + "<colision> is not known (did you mean <collision>?)\n"
                  "r.urdf:3: robot \"r\": <lnk> is not known (did you mean <link>?)");
   EXPECT_EQ(
       complaintOfParts(link("a", "<group>" + collision("<box size=\"1 1 1\"/>") + "</group>")),
-      of + "<group> is not known, and the collision geometry in it would be lost");
+      of + "<group> is not known, and the collision geometry in it would be lost" + move);
   EXPECT_EQ(
       complaintOfParts(link("a") + collision("<box size=\"1 1 1\"/>")),
       "r.urdf:3: robot \"r\": <collision> is not known, and the collision geometry in it would "
-      "be lost");
-  EXPECT_EQ(complaintOfParts(link("a",
-                                  "<collision_model><geometry><box size=\"1 1 1\"/></geometry>"
-                                  "</collision_model>")),
-            of + "<collision_model> is not known, and the collision geometry in it would be lost");
+      "be lost" +
+          move);
+  EXPECT_EQ(
+      complaintOfParts(link("a",
+                            "<collision_model><geometry><box size=\"1 1 1\"/></geometry>"
+                            "</collision_model>")),
+      of + "<collision_model> is not known, and the collision geometry in it would be lost" + move);
   EXPECT_EQ(complaintOfParts(link("a", "<self_filter><geometry/></self_filter>")), "no complaint")
       << "other geometry is for other programs";
   EXPECT_EQ(
