@@ -72,7 +72,8 @@ void requireSound(const TriangleMesh& mesh, MeshFaults& faults) {
 std::string notRead(const std::string& extension) {
   return (extension.empty() ? std::string("a name without an extension")
                             : "the extension " + inQuotes(extension)) +
-         " is not supported; save the mesh as " + kFormats;
+         " is not supported; save the mesh as " + kFormats +
+         (extension.empty() || extension == ".xml" ? " (a robot in URDF begins with <robot>)" : "");
 }
 
 std::string unitRule(const MeshFileOptions& options, double fileUnit) {

@@ -187,6 +187,10 @@ ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
                 "bytes, found " +
                     std::to_string(bytes.size()));
   }
+  if (std::ranges::all_of(start,
+                          [](char c) { return c == '\n' || c == '\r' || c == '\t' || c >= ' '; }))
+    faults.fail(0, "is no STL file: it begins with the text " +
+                       inQuotes(start.substr(0, start.find_first_of("\r\n"))));
   faults.fail(
       0,
       "binary STL of " + std::to_string(littleEndian32(&bytes[80])) + " triangles: expected " +

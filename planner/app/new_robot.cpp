@@ -12,6 +12,7 @@
 #include "planner/app/output.h"
 #include "planner/model/model_builder.h"
 #include "planner/model/planned_joints.h"
+#include "planner/problem/assembly.h"
 #include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_file.h"
 

@@ -81,6 +81,13 @@ void requirePossible(const SolveArguments& a, const Problem& problem) {
     throw InputError(Fault{"--trajectory", 0,
                            "a JointTrajectory can't hold the rotation of a floating base; a name "
                            "that ends in .csv is needed"});
+  if (a.trajectory && trajectoryKindOf(*a.trajectory) == TrajectoryFileKind::csv)
+    for (const std::string& name : problem.model.space.numberNames())
+      if (name.find_first_of("\r\n") != name.npos)
+        throw InputError(Fault{"--trajectory", 0,
+                               "the name of joint " + quotedWord(name) +
+                                   " has a line end, which CSV can't hold; a name that ends in "
+                                   ".yaml is needed"});
   if (a.keep == "clearest" && preferredClearance(problem) == 0)
     throw InputError(
         Fault{"--keep", 0,

@@ -34,10 +34,7 @@ std::optional<std::string> readBytes(const YamlMap& map, const char* key) {
     if (error != std::errc() || end != text.data() + text.size() || byte < -128 || byte > 255) {
       map.source().fault(item->line, map.pathOf(key) + "[" + std::to_string(bytes.size()) +
                                          "]: a whole number from -128 to 255 is needed, not " +
-                                         quotedWord(text) +
-                                         (text == "..." ? " (ros2 topic echo --full-length writes "
-                                                          "the whole list)"
-                                                        : ""));
+                                         described(*item));
       return std::nullopt;
     }
     bytes.push_back(static_cast<char>(byte));

@@ -117,10 +117,11 @@ JointList readGroup(const YamlMap& map, const std::string& byDefault, RobotDescr
       map.fault("group", map.find("srdf")->text + " names no group, so there is no " +
                              quotedWord(*name) + "; use joints: [NAME, …]");
     else
-      map.fault("group",
-                "there is no group " + quotedWord(*name) + " in the SRDF" +
-                    didYouMean(*name, known) +
-                    (known.empty() ? ", and none of its groups can be used" : knownWords(known)));
+      map.fault(
+          "group",
+          (map.find("group") ? "there is no group " : "the request names it; there is no group ") +
+              quotedWord(*name) + " in the SRDF" + didYouMean(*name, known) +
+              (known.empty() ? ", and none of its groups can be used" : knownWords(known)));
   } else if (const JointGroup& group = found->second; !group.unusable.empty()) {
     map.fault("group", "the group " + quotedWord(*name) + " can't be used: " + group.unusable);
   } else {

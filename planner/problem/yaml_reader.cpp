@@ -52,7 +52,8 @@ std::optional<std::vector<double>> readNamed(const YamlMap& map, const char* key
 std::string described(const YamlValue& value) {
   switch (value.kind) {
     case YamlValue::Kind::Scalar:
-      return quotedWord(value.text);
+      return quotedWord(value.text) +
+             (value.text == "..." ? " (ros2 topic echo --full-length writes whole lists)" : "");
     case YamlValue::Kind::List:
       return "a list";
     case YamlValue::Kind::Map:

@@ -4,6 +4,7 @@
 
 #include "planner/problem/problem.h"
 #include "planner/robot/note.h"
+#include "planner/solve/finish_path.h"
 
 namespace corridor {
 

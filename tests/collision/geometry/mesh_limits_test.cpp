@@ -152,7 +152,8 @@ TEST_F(MeshLimits, OnlySupportedExtensions) {
               "a" + std::string(extension) + ": the extension \"" + extension + "\"" + formats);
     EXPECT_THROW(readOmplAppMesh(write("a" + std::string(extension), off)), InputError);
   }
-  EXPECT_EQ(complaint("mesh", off), "mesh: a name without an extension" + formats);
+  EXPECT_EQ(complaint("mesh", off), "mesh: a name without an extension" + formats +
+                                        " (a robot in URDF begins with <robot>)");
 }
 
 }  // namespace

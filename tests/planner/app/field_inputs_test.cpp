@@ -91,6 +91,9 @@ TEST_F(FieldInputs, FilesByAnotherName) {
            {"gz.ply", "\x1F\x8B\x08xxxxxxxxxxxxxxx", "is a gzip archive; a mesh file"},
            {"page.urdf", "\n<html>\n", "is a web page; a robot (URDF)"},
            {"page.yaml", "<!doctype HTML>\n", "is a web page; a problem"},
+           {"text.stl", "ply\nformat ascii 1.0\n" + std::string(100, 'c') + "\n",
+            "is no STL file: it begins with the text \"ply\""},
+           {"utf16.urdf", "\xFF\xFE<\x01", "is text in UTF-16; save it in UTF-8"},
            {"lfs.stl", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
             "git lfs pull"}}) {
     write(name, text);
@@ -215,6 +218,11 @@ TEST_F(FieldInputs, LimitsAndWeights) {
   write("weights.yaml",
         "format: corridor-robot-1\nurdf: limit.urdf\nweights: {joints: {eq: 2, turn: 3}}\n");
   EXPECT_THAT(run("inspect weights.yaml").out, HasSubstr("weights of eq are not used"));
+  write("line.urdf", robotNamed("a&#10;b"));
+  ASSERT_EQ(run("new problem line.urdf -o line.yaml").status, 0);
+  EXPECT_THAT(run("solve line.yaml --trajectory t.csv").err,
+              HasSubstr("has a line end, which CSV can't hold"));
+  EXPECT_EQ(run("solve line.yaml --trajectory t.yaml").status, 0);
   write("p.yaml",
         "format: corridor-problem-1\nrobot: limit.urdf\nworld: {}\nstart: {turn: 0, eq: 0}\n"
         "goal: {turn: 1}\n");

@@ -166,7 +166,7 @@ TEST_F(Moveit, FaultsOfTheScene) {
   EXPECT_EQ(complaint("world: {octomap: {octomap: {resolution: 0.1, data: [1, ...]}}}\n"),
             map +
                 ".data[1]: a whole number from -128 to 255 is needed, not \"...\" (ros2 topic "
-                "echo --full-length writes the whole list)");
+                "echo --full-length writes whole lists)");
   EXPECT_EQ(complaint("world: {octomap: {header: {frame_id: hand}}}\n"),
             "scene.yaml:1: world.octomap.header.frame_id: the frame of the robot's root, \"base\", "
             "or \"world\" is needed, not \"hand\"");
@@ -239,7 +239,8 @@ TEST_F(Moveit, FaultsOfTheRequest) {
     return complaint(text);
   };
   EXPECT_EQ(changed("group_name: arm", "group_name: amr"),
-            "arm.yaml:1: group: there is no group \"amr\" in the SRDF (did you mean \"arm\"?) "
+            "arm.yaml:1: group: the request names it; there is no group \"amr\" in the SRDF (did "
+            "you mean \"arm\"?) "
             "(known: arm, nothing)");
   EXPECT_EQ(changed("[pan, lift,", "[pan, lft,"),
             "request.yaml:4: start_state: has no value for lift; all joints that are planned for "
