@@ -166,6 +166,23 @@ void makeText(const Problem& problem, const Checker& checker, const LawfulCurve&
 /// and the time law along it has no digits left.
 constexpr double kNoLength = 1e-9;
 
+/// Returns whether nothing moves along a path.
+bool isStill(const ConfigurationSpace& space, const Path& path) {
+  const PathLength length = lengthOf(space, path);
+  return std::max(length.metres, length.radians) <= kNoLength;
+}
+
+/// Returns the path without the states between its ends that are where the state before is, or the
+/// last one. Each such edge would cost a stop.
+Path withoutStillEdges(const ConfigurationSpace& space, const Path& path) {
+  Path moving{path.front()};
+  for (std::size_t i = 1; i + 1 < path.size(); ++i)
+    if (!isStill(space, {moving.back(), path[i]})) moving.push_back(path[i]);
+  while (moving.size() > 1 && isStill(space, {moving.back(), path.back()})) moving.pop_back();
+  moving.push_back(path.back());
+  return moving;
+}
+
 /// Returns two rows, at rest at the first and at the last state of a path on which nothing moves.
 /// The time from one to the other is 1 ms, a controller's period, or longer if limits need it.
 MadeTrajectory standing(const Problem& problem, const Checker& checker, const Path& path,
@@ -221,12 +238,11 @@ double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>&
 
 }  // namespace
 
-MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& path,
+MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& along,
                               TrajectoryFileKind kind, const std::function<bool()>& stop) {
   const ConfigurationSpace& space = problem.model.space;
-  const PathLength length = lengthOf(space, path);
-  if (std::max(length.metres, length.radians) <= kNoLength)
-    return standing(problem, checker, path, kind);
+  if (isStill(space, along)) return standing(problem, checker, along, kind);
+  const Path path = withoutStillEdges(space, along);
   MadeTrajectory begun;
   LawfulCurve smooth = smoothCurve(problem, checker, path, stop, begun);
   MadeTrajectory made =

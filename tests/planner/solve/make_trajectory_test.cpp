@@ -48,6 +48,25 @@ TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
   }
 }
 
+/// States that differ from a neighbour by roundings cost no time.
+TEST_F(MakeTrajectory, EdgesOfNearlyNothing) {
+  const Problem problem = problemWith();
+  const Checker checker(problem);
+  const double seconds =
+      makeTrajectory(problem, checker, overThePost(), TrajectoryFileKind::csv).duration;
+  const double ulp = 0x1p-52;
+  for (const Path& path : {Path{at(0, 0.2), at(ulp, 0.2), at(0.5, 1.3), at(1.5, 1.3), at(2, 0.2)},
+                           Path{at(0, 0.2), at(0.5, 1.3), at(0.5 + ulp, 1.3), at(0.5, 1.3 + ulp),
+                                at(1.5, 1.3), at(2, 0.2)},
+                           Path{at(0, 0.2), at(0.5, 1.3), at(1.5, 1.3), at(2 - ulp, 0.2),
+                                at(2, 0.2 + ulp), at(2, 0.2)}}) {
+    const MadeTrajectory made = makeTrajectory(problem, checker, path, TrajectoryFileKind::csv);
+    ASSERT_TRUE(made.isGood());
+    EXPECT_EQ(verified(problem, made).verdict, PathVerdict::proved);
+    EXPECT_NEAR(made.duration, seconds, 1e-6 * seconds);
+  }
+}
+
 /// Start and goal that are equal, or differ by roundings, give two rows.
 TEST_F(MakeTrajectory, PathsOfNearlyNothing) {
   for (const std::string more :
