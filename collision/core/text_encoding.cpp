@@ -105,7 +105,8 @@ void requireUtf8(std::string_view text, const std::string& file, const std::stri
 std::string xmlAsUtf8(std::string text, const std::string& file) {
   const std::string encoding = declaredEncoding(text);
   const std::string small = lowered(encoding);
-  if (!small.empty() && small != "utf-8" && small != "utf8" && text.starts_with("\xEF\xBB\xBF"))
+  if (!small.empty() && small != "utf-8" && small != "utf8" && small != "us-ascii" &&
+      text.starts_with("\xEF\xBB\xBF"))
     failAt(text, 0, file,
            "begins with the byte-order mark of UTF-8, but names the encoding " +
                quotedWord(encoding) + "; correct one of the two");

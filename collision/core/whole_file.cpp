@@ -4,7 +4,7 @@
 #include <csignal>
 #include <ext/stdio_filebuf.h>
 #include <fcntl.h>
-#include <fstream>
+#include <iostream>
 #include <random>
 #include <sys/stat.h>
 #include <system_error>
@@ -34,6 +34,17 @@ class SignalBlocker {
   sigset_t before_{};
 };
 
+/// Writes to an open file, and closes it. @returns 0, or the system's error number (-1 if it gives
+/// none).
+int writeTo(int descriptor, const std::function<void(std::ostream&)>& write) {
+  if (descriptor < 0) return errno;
+  errno = 0;
+  __gnu_cxx::stdio_filebuf<char> buffer(descriptor, std::ios::out | std::ios::binary);
+  std::ostream out(&buffer);
+  write(out);
+  return out.flush() && buffer.close() ? 0 : errno != 0 ? errno : -1;
+}
+
 /// A new file that is removed unless it is renamed. Its name can't be foreseen, and nothing that
 /// has this name, such as a link, is opened. It is short, since the names of files have at most 255
 /// bytes.
@@ -62,11 +73,7 @@ class Draft {
     if (failure_ != 0) return failure_;
     struct stat old {};
     if (::stat(file.c_str(), &old) == 0) ::fchmod(descriptor_, old.st_mode & 0777);
-    errno = 0;
-    __gnu_cxx::stdio_filebuf<char> buffer(descriptor_, std::ios::out | std::ios::binary);
-    std::ostream out(&buffer);
-    write(out);
-    if (!out.flush() || !buffer.close()) return errno != 0 ? errno : -1;
+    if (const int failure = writeTo(descriptor_, write)) return failure;
     std::error_code failure;
     std::filesystem::rename(path_, file, failure);
     if (!failure) path_.clear();
@@ -78,16 +85,6 @@ class Draft {
   int descriptor_ = -1;
   int failure_ = 0;
 };
-
-/// Writes to a device or a pipe. @returns 0, or the system's error number (-1 if it gives none).
-int writeDirectly(const std::filesystem::path& file,
-                  const std::function<void(std::ostream&)>& write) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  if (out) write(out);
-  if (out) out.close();
-  return out ? 0 : errno != 0 ? errno : -1;
-}
 
 /// Returns the file to which a symbolic link leads, which need not exist, or the file itself. For
 /// links in a circle, returns one of them.
@@ -101,17 +98,17 @@ std::filesystem::path targetOf(std::filesystem::path file) {
   return file;
 }
 
-/// Returns whether a file is the one to which the standard output or the errors go. Its name may be
-/// /dev/stdout, and other programs may write to it, too.
-bool isStandardStream(const std::filesystem::path& file) {
+/// Returns the descriptor of the standard output or the errors if they go to this file, or else -1.
+/// The file's name may be /dev/stdout, and other programs may write to it, too.
+int standardStream(const std::filesystem::path& file) {
   struct stat named {
   }, stream{};
-  if (::stat(file.c_str(), &named) != 0) return false;
-  const auto is = [&](int descriptor) {
-    return ::fstat(descriptor, &stream) == 0 && stream.st_dev == named.st_dev &&
-           stream.st_ino == named.st_ino;
-  };
-  return is(STDOUT_FILENO) || is(STDERR_FILENO);
+  if (::stat(file.c_str(), &named) == 0)
+    for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
+      if (::fstat(descriptor, &stream) == 0 && stream.st_dev == named.st_dev &&
+          stream.st_ino == named.st_ino)
+        return descriptor;
+  return -1;
 }
 
 std::string helpFor(int failure) {
@@ -139,8 +136,11 @@ void writeWhole(const std::filesystem::path& file,
   // Renaming a file over a device or a pipe would replace it.
   const bool isDevice =
       std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
-  if (isDevice || isStandardStream(file)) {
-    failure = writeDirectly(file, write);
+  if (const int stream = standardStream(file); stream >= 0) {
+    std::cout.flush();  // what was printed before stays before
+    failure = writeTo(::dup(stream), write);
+  } else if (isDevice) {
+    failure = writeTo(::open(file.c_str(), O_WRONLY | O_CLOEXEC), write);
   } else {
     const SignalBlocker wait;
     const std::filesystem::path target = targetOf(file);

@@ -11,7 +11,8 @@ namespace corridor {
 /// same folder; then the temporary file replaces the file, and keeps its mode. A symbolic link
 /// stays one: the file to which it leads is written. On failure no temporary file is left, and an
 /// existing file stays as it is. Meanwhile SIGQUIT and `kUserSignals` are blocked in the calling
-/// thread. Only a device or a pipe is written to directly, without these guarantees.
+/// thread. Only a device, a pipe, or the file to which the standard output or the errors go is
+/// written to directly, without these guarantees.
 /// @throws InputError with the system's reason if the file can't be written.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 void writeWhole(const std::filesystem::path& file, const std::string& text);

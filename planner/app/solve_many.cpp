@@ -163,7 +163,7 @@ bool isSolved(const ordered_json& report) {
 std::string lineOf(const ordered_json& report) {
   std::string line = report["result"];
   if (!isSolved(report)) {
-    const std::string why = report["why"];
+    const std::string why = report.at("why");
     return line + ": " + why.substr(0, why.find('\n'));
   }
   const auto& path = report["path"];

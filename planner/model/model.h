@@ -41,6 +41,7 @@ struct ModelRobot {
   /// source are at 0, or at the limit nearest to 0.
   std::map<std::size_t, std::string> heldFrom;
   std::set<std::size_t> heldByFile;  ///< joints whose held value the robot's file gives (`hold`)
+  bool jointsAreChosen = false;      ///< whether files choose the joints that are planned for
   std::map<std::string, double> jointWeights;  ///< joints that are not listed have weight 1
   double rotationWeight = 0.5;  ///< metres per radian of rotation; OMPL's default for SE2 and SE3
 

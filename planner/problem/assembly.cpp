@@ -187,9 +187,14 @@ void replaceObstacles(const Problem& base, std::vector<ModelBody> obstacles, Pro
   std::erase_if(model.bodies, [](const ModelBody& body) { return !body.robot; });
   std::map<std::string, std::size_t> byName;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) byName[model.bodies[i].name] = i;
+  const std::size_t links = model.bodies.size();
   for (ModelBody& obstacle : obstacles) {
-    if (byName.contains(obstacle.name)) obstacle.name.insert(0, "world/");
-    byName[obstacle.name] = model.bodies.size();
+    const auto link = byName.find(obstacle.name);
+    if (link != byName.end() && link->second < links) obstacle.name.insert(0, "world/");
+    if (!byName.emplace(obstacle.name, model.bodies.size()).second)
+      throw InputError(Fault{problem.source.file.string(), 0,
+                             "two obstacles have the name " + quotedWord(obstacle.name) +
+                                 "; give each a name of its own"});
     model.bodies.push_back(std::move(obstacle));
   }
   std::vector<std::optional<std::size_t>> places;  // of the bodies of `base`

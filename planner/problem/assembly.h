@@ -33,8 +33,9 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
 
 /// Replaces the obstacles of a problem. Everything that `base` says about a pair or a body stays,
 /// by the names of the bodies: the pairs that are not tested, with their reasons and proofs, and
-/// the paddings. What it says about bodies that the problem does not have is not used. The bounds
-/// of rigid robots and of joints stay, even if they were found from the world of `base`.
+/// the paddings. What it says about bodies that the problem does not have is not used, nor are
+/// names in a scene's matrix of which `base` had no body. The bounds of rigid robots and of joints
+/// stay, even if they were found from the world of `base`.
 /// @param base the problem as it was read or built, with its own obstacles. `problem` is a copy of
 /// it, perhaps with other settings, start, goals, margin or tube.
 /// @param obstacles bodies on frame 0, with the names that `ModelBuilder::addObstacle` takes.

@@ -182,7 +182,8 @@ bool StateReader::readJoints(std::size_t robot, const YamlMap& map, Given& given
       [&](std::size_t j, const YamlValue::Entry& entry, bool degrees) {
         const JointModel& joint = model.joints[j];
         const std::string path = map.pathOf(entry.key);
-        if (joint.type == JointType::fixed && map.number(entry.key) == 0.0) return;  // its value
+        if (joint.type == JointType::fixed && map.number(entry.key).value_or(0) == 0)
+          return;  // its value, or a fault
         if (const std::string why = whyNotActive(model, j); !why.empty())
           return map.fault(entry.key, why);
         if (const auto held = setup.held.find(j); held != setup.held.end()) {

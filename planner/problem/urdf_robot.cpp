@@ -388,6 +388,7 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   // of them is planned for.
   const bool hasDefault = !group.empty() && srdf && !map.find("joints");
   const bool isChosen = map.find("group") || map.find("joints") || hasDefault;
+  setup.robot.jointsAreChosen = isChosen || heldState || map.find("hold");
   if (heldState && !isChosen) holdState(*heldState, {}, hold, setup);
   readAllow(map, setup.robot.description);
   readWeights(map, setup);

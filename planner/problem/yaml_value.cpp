@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -157,22 +158,23 @@ class TreeBuilder : public YAML::EventHandler {
       fail(mark, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it");
   }
 
-  /// Returns the number in radians for the tags of ROS, as in `max_velocity: !degrees 120.0`;
-  /// nullopt for other scalars. The tags count in joint limits (`max_…`, `min_…`); elsewhere, the
-  /// fault says what to write.
+  /// Returns the number in radians for the tags of ROS in joint limits, as in `max_velocity:
+  /// !degrees 120.0`; nullopt for other scalars. Elsewhere these tags are faults.
   std::optional<std::string> radiansOf(const YAML::Mark& mark, const std::string& tag,
                                        const std::string& text) const {
+    static const std::set<std::string_view> limits{
+        "min_position",     "max_position",     "min_velocity", "max_velocity", "min_acceleration",
+        "max_acceleration", "max_deceleration", "min_jerk",     "max_jerk"};
+    if (tag != "!degrees" && tag != "!radians") return std::nullopt;
     double number = 0;
-    const bool isDegrees = tag == "!degrees";
-    if ((!isDegrees && tag != "!radians") || !parseNumber(text, Range::Any, number).empty())
-      return std::nullopt;
-    const std::string radians = isDegrees ? shortest(number * (std::numbers::pi / 180)) : text;
-    const std::string key = open_.empty() || open_.back().value.entries.empty()
-                                ? ""
-                                : open_.back().value.entries.back().key;
-    if (key.starts_with("max_") || key.starts_with("min_")) return radians;
-    fail(mark,
-         "tags (" + tag + ") are read in joint limits only; write " + radians + ", in radians");
+    const bool isValue = !open_.empty() && open_.back().value.kind == YamlValue::Kind::Map &&
+                         !open_.back().keyIsNext && !open_.back().value.entries.empty() &&
+                         limits.contains(open_.back().value.entries.back().key);
+    if (!isValue || !parseNumber(text, Range::Any, number).empty())
+      fail(mark, "tags (" + tag +
+                     ") are read in joint limits only; write the number without it, in the unit "
+                     "of its key");
+    return tag == "!degrees" ? shortest(number * (std::numbers::pi / 180)) : text;
   }
 
   /// Refuses quotes that are not closed: yaml-cpp takes the rest of the file as part of the value.

@@ -87,7 +87,10 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   SolveOptions options;
   options.noteLeftOut = true;
   options.valueOrigins = native.origins();
-  native.checker();  // so that its trees serve the following problems, too
+  {
+    const py::gil_scoped_release unlocked;
+    native.checker();  // so that its trees serve the following problems, too
+  }
   const std::vector<Body> meshes = native.meshes();
   options.earlier = meshes;
   if (trajectory)

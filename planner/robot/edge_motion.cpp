@@ -54,7 +54,9 @@ struct EdgeMotion::Impl {
   };
   struct Path {
     std::size_t a = kItself, b = kItself;  // views of frames A and B from their common ancestor
-    std::vector<Step> steps;               // from frame A to frame B
+    // From frame A to frame B. Stored when the motion is first queried: a chain of n frames has
+    // n²/2 paths of up to n steps, and the motions of most pairs are never queried.
+    std::vector<Step> steps;
     std::vector<ScrewMotion> screws;
     // The following members are valid for the edge numbered `edge`, and are computed when the
     // motion is first queried. `poseError`: the error of the pose and of the axes. `twistError`:
@@ -79,6 +81,7 @@ struct EdgeMotion::Impl {
   /// Begins an edge or a piece of a curve. `setJoint` sets the edge or piece in one joint.
   template <class SetJoint>
   void begin(bool hasNoCurve, const SetJoint& setJoint);
+  void fillSteps(Path& path) const;
   const View& viewAt(std::size_t index);
   const View& viewWithErrors(std::size_t index);
   void setErrors(Path& path);
@@ -150,15 +153,17 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     Path path;
     path.a = viewOf(viewOf, ancestors[i], pairs[i].a);
     path.b = viewOf(viewOf, ancestors[i], pairs[i].b);
-    for (std::size_t v = path.b; v != kItself; v = views[v].parent)
-      path.steps.push_back({v, false});
-    std::vector<Step> up;
-    for (std::size_t v = path.a; v != kItself; v = views[v].parent) up.push_back({v, true});
-    path.steps.insert(path.steps.end(), up.rbegin(), up.rend());
-    std::reverse(path.steps.begin(), path.steps.end());
-    path.screws.reserve(2 * path.steps.size());
     paths.push_back(std::move(path));
   }
+}
+
+void EdgeMotion::Impl::fillSteps(Path& path) const {
+  for (std::size_t v = path.b; v != kItself; v = views[v].parent) path.steps.push_back({v, false});
+  std::vector<Step> up;
+  for (std::size_t v = path.a; v != kItself; v = views[v].parent) up.push_back({v, true});
+  path.steps.insert(path.steps.end(), up.rbegin(), up.rend());
+  std::reverse(path.steps.begin(), path.steps.end());
+  path.screws.reserve(2 * path.steps.size());
 }
 
 template <class SetJoint>
@@ -311,6 +316,7 @@ RelativeMotion EdgeMotion::relativeMotion(std::size_t pair, double t, double h) 
     ++m.stamp;
   }
   Impl::Path& path = m.paths[pair];
+  if (path.steps.empty()) m.fillSteps(path);
   m.setErrors(path);
   RelativeMotion w;
   if (path.b != kItself) w.X_AB = m.viewAt(path.b).X;

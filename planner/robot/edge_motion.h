@@ -16,7 +16,8 @@ namespace corridor {
 /// included: each frame has an error bound, accumulated along the chain.
 ///
 /// Poses are computed on demand, at most once for each t. Use one object per thread. Call `set` for
-/// every edge; after the first edge, `set` allocates no memory.
+/// every edge; after the first edge, `set` allocates no memory, and a query does so only if it is
+/// the first one of its pair.
 class EdgeMotion final : public MotionSource {
  public:
   /// `tree` and `space` must outlive the object.

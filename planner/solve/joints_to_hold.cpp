@@ -25,7 +25,7 @@ std::vector<Note> notesOnJointsToHold(const Problem& problem, const Path& path) 
   if (path.empty() || task.goalRegion) return {};
   std::vector<std::string> names;
   for (const ModelRobot& robot : problem.model.robots) {
-    if (!plansForAll(robot)) continue;
+    if (robot.jointsAreChosen || !plansForAll(robot)) continue;
     for (const PlannedJoint& planned : robot.plannedJoints) {
       if (isPoseJoint(planned.type)) continue;
       const Coordinate& coordinate = problem.model.space.coordinates()[planned.coordinate];

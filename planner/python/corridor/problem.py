@@ -107,8 +107,8 @@ class Problem:
         """Returns a copy of the problem in which the given values are changed.
 
         obstacles: shapes by name, which replace all obstacles. What the problem says of pairs and bodies (pairs that
-        may touch, paddings) holds for obstacles of the same names, also after edits without them. Bounds stay. Trees of
-        meshes that stay are kept: a loop that reads a camera makes each problem from the one before.
+        may touch, paddings) holds for its obstacles of the same names, also after edits without them. Bounds stay. Trees
+        of meshes that stay are kept: a loop that reads a camera makes each problem from the one before.
         start (J,); goals (J,), or (G, J): a path may end at any of the G goals; margin, m; tube, {"joints": rad or m,
         "slides": m, "position": m, "rotation": rad}; planner, OMPL's name; params, the planner's parameters by OMPL's
         names; time, s; seed; simplify (True, False, "ompl"); edges ("certified", "discrete", ...); clearance, m;

@@ -174,6 +174,13 @@ TEST_F(FieldInputs, OutputsAtUnusualPlaces) {
   EXPECT_EQ(std::system((program + "solve arm.yaml --quiet -o /dev/stdout >> log.txt").c_str()), 0);
   EXPECT_THAT(read("log.txt"), testing::StartsWith("before\n"));
   EXPECT_THAT(read("log.txt"), HasSubstr("format: corridor-solution"));
+  EXPECT_EQ(std::system((program + "solve arm.yaml -o /dev/stdout > all.txt").c_str()), 0);
+  EXPECT_THAT(read("all.txt"), testing::StartsWith("# "));
+  EXPECT_THAT(read("all.txt"), HasSubstr("\nresult: solved"));
+  EXPECT_EQ(
+      std::system((program + "solve arm.yaml --quiet -o /dev/stdout | cat > piped.txt").c_str()),
+      0);
+  EXPECT_THAT(read("piped.txt"), HasSubstr("format: corridor-solution"));
   fs::create_symlink("b.yaml", folder_ / "a.yaml");
   fs::create_symlink("a.yaml", folder_ / "b.yaml");
   EXPECT_EQ(run("solve arm.yaml -o a.yaml").status, 2);
