@@ -274,10 +274,15 @@ ReadMesh readBody(std::string_view body, const PlyHeader& header, bool isMesh, c
   return read;
 }
 
-/// Returns notes on lists of faces that are not read, and are none of those that do not concern
-/// their shapes.
+/// Returns notes on elements that are not read, and on lists of faces that are not read and are
+/// none of those that do not concern their shapes.
 std::vector<std::string> notesOnLists(const PlyHeader& header) {
   std::vector<std::string> notes;
+  static constexpr std::array<std::string_view, 5> known{"vertex", "face", "edge", "material",
+                                                         "camera"};
+  for (const PlyElement& element : header.elements)
+    if (std::ranges::find(known, element.name) == known.end() && element.count > 0)
+      notes.push_back("the element " + inQuotes(element.name) + " is not read");
   for (const PlyElement& element : header.elements)
     for (const PlyProperty& p : element.properties)
       if (element.name == "face" && element.count > 0 && p.countType && !isCornerList(p) &&

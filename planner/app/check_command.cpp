@@ -101,7 +101,7 @@ void warnOfLimits(const std::string& file, std::size_t count, const char* what) 
 }
 
 /// Prints the JSON report on the states or edges of a file. Without `a.json`, the rows are printed
-/// already; then only prints on stderr what the word "free" leaves out.
+/// already; then only prints on stderr the problem's notes, and what the word "free" leaves out.
 void printReport(const CheckArguments& a, const Problem& problem, const LeftOut& leftOut,
                  bool valid, const char* key, const ordered_json& rows) {
   if (a.json)
@@ -114,7 +114,10 @@ void printReport(const CheckArguments& a, const Problem& problem, const LeftOut&
                                        {"notes", textsOf(problem.source.notes)},
                                        {key, rows}})
               << '\n';
-  else if (!leftOut.except.empty())
+  if (a.json) return;
+  for (const std::string& note : condensed(textsOf(problem.source.notes)))
+    std::cerr << "note: " << note << '\n';
+  if (!leftOut.except.empty())
     std::cerr << "note: the " << key << " are tested" << exceptText(problem.model, leftOut) << '\n';
 }
 

@@ -249,6 +249,15 @@ bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owne
                      NoteWeight::motion});
   if (!safety || !joint.limit) return false;
   if (joint.type != JointType::revolute && joint.type != JointType::prismatic) return false;
+  file.checkAttributes(*safety,
+                       {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"},
+                       owner + ": <safety_controller>", notes);
+  if (apply &&
+      !(safety->FindAttribute("soft_lower_limit") && safety->FindAttribute("soft_upper_limit")))
+    notes.push_back({file.at(safety->GetLineNum(),
+                             owner + ": a soft limit is missing, so the joint's own limit is used, "
+                                     "not the format's default, 0"),
+                     NoteWeight::motion});
   const Numbers softLower = file.numbers(*safety, "soft_lower_limit", 1, owner);
   const Numbers softUpper = file.numbers(*safety, "soft_upper_limit", 1, owner);
   const double lower = joint.limit->lower.value_or(0), upper = joint.limit->upper.value_or(0);

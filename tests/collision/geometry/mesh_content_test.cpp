@@ -74,6 +74,8 @@ TEST_F(MeshContent, PlyElementsThatMayHoldTriangles) {
                                           {"camera", list},
                                           {"pose", "int a\nproperty int b"}})
     EXPECT_EQ(complaint("a.ply", ply(element, property, "")), "no complaint") << element;
+  EXPECT_THAT(notesOf("a.ply", ply("pose", "int a\nproperty int b", "")),
+              ElementsAre("the element \"pose\" is not read"));
   EXPECT_THAT(complaint("a.ply", ply("quads", "int a\nproperty int b", "")),
               HasSubstr("may hold triangles"));
 }

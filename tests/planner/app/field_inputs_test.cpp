@@ -238,6 +238,8 @@ TEST_F(FieldInputs, LimitsAndWeights) {
   write("p.yaml",
         "format: corridor-problem-1\nrobot: limit.urdf\nworld: {}\nstart: {turn: 0}\n"
         "goal: {turn: 1}\nlimits: {file: jl.yaml}\n");
+  write("states.txt", "0\n");
+  EXPECT_THAT(run("check p.yaml --states states.txt").err, HasSubstr("<limit> are not used"));
   write("rows.csv", "time,turn,eq\n0,0,0\n1,1,0\n");
   EXPECT_THAT(run("verify p.yaml rows.csv").err, Not(HasSubstr("hold")));
   // The tags of ROS.

@@ -138,9 +138,9 @@ TEST_F(RestContact, OfABaseOnItsTableIsANote) {
   EXPECT_LT(checked.out.find(note), checked.out.find("note: joints that are not planned"));
   const Result states = run("check p.yaml --states states.txt");
   EXPECT_EQ(states.out, "state,valid,pairs\n0,1,\n1,1,\n");
-  EXPECT_EQ(states.err, "note: the states are tested" + except + "\n");
-  EXPECT_EQ(run("check p.yaml --edges edges.txt").err,
-            "note: the edges are tested" + except + "\n");
+  EXPECT_THAT(states.err, HasSubstr("note: the states are tested" + except + "\n"));
+  EXPECT_THAT(run("check p.yaml --edges edges.txt").err,
+              HasSubstr("note: the edges are tested" + except + "\n"));
   const Result solved = run("solve p.yaml -o s.yaml --trajectory t.csv");
   EXPECT_EQ(solved.status, 0);
   EXPECT_THAT(solved.out, HasSubstr("certified: yes" + except + "\n"));

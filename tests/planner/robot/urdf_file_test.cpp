@@ -355,7 +355,9 @@ TEST_F(UrdfFile, SoftLimits) {
                                    "one"));
   rules_.softLimits = true;
   const RobotDescription soft = modelOf(parts);
-  EXPECT_TRUE(soft.notes.empty());
+  EXPECT_THAT(textsOf(soft.notes),
+              testing::ElementsAre(testing::HasSubstr(
+                  "joint \"one\": a soft limit is missing, so the joint's own limit is used")));
   EXPECT_EQ(soft.joints[0].lower, -0.5);
   EXPECT_EQ(soft.joints[0].upper, 1);
   EXPECT_EQ(soft.joints[1].lower, -1);
