@@ -229,7 +229,7 @@ bool isUrdf(const std::filesystem::path& file) {
   std::string text;
   try {
     text = readTextFile(file, "a robot (URDF)");
-  } catch (const InputError&) {  // whoever reads the file reports it
+  } catch (const InputError&) {  // the reader of the file reports it
     return false;
   }
   std::size_t at = text.find('<');

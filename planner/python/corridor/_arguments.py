@@ -14,7 +14,7 @@ def _has_text(value: Any) -> bool:
     try:
         array = np.asarray(value)
     except (TypeError, ValueError, OverflowError):
-        return False  # whoever needs the array says why it is none
+        return False  # _array raises an error that says why
     return array.dtype.kind in "SU" or (array.dtype.kind == "O" and any(isinstance(x, (str, bytes)) for x in array.flat))
 
 
