@@ -105,12 +105,12 @@ void requireUtf8(std::string_view text, const std::string& file, const std::stri
 std::string xmlAsUtf8(std::string text, const std::string& file) {
   const std::string encoding = declaredEncoding(text);
   const std::string small = lowered(encoding);
-  if (!small.empty() && small != "utf-8" && small != "utf8" && small != "us-ascii" &&
-      text.starts_with("\xEF\xBB\xBF"))
+  const bool isUtf8 = small.empty() || small == "utf-8" || small == "utf8" || small == "us-ascii";
+  if (!isUtf8 && text.starts_with("\xEF\xBB\xBF"))
     failAt(text, 0, file,
            "begins with the byte-order mark of UTF-8, but names the encoding " +
                quotedWord(encoding) + "; correct one of the two");
-  if (small.empty() || small == "utf-8" || small == "utf8" || small == "us-ascii") {
+  if (isUtf8) {
     requireUtf8(text, file,
                 ", or name its encoding in the first line, such as <?xml version=\"1.0\" "
                 "encoding=\"ISO-8859-1\"?>");

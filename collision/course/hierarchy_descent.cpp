@@ -156,11 +156,15 @@ class DepthOfParts {
     list_.clear();
     const Vec3 origin = a.front();
     double size = 0;
+    for (const auto* points : {&a, &b})
+      for (const Vec3& point : *points)
+        size = std::max(size, (point - origin).cwiseAbs().maxCoeff());
+    // Scaled, so that all rows of the program have coefficients of one size.
+    const double scale = size > 0 && size < HUGE_VAL ? 1 / powerOfTwo(size) : 1;
     // Variables u, w, h1, h2: n·a ≤ h1 for all points a, −n·b ≤ h2 for all points b.
     for (const auto& [points, sign] : {std::pair(&a, 1.0), std::pair(&b, -1.0)})
       for (const Vec3& point : *points) {
-        const Vec3 p = sign * (point - origin);
-        size = std::max(size, p.cwiseAbs().maxCoeff());
+        const Vec3 p = sign * scale * (point - origin);
         list_.push_back({{e1_.dot(p), e2_.dot(p), sign > 0 ? -1.0 : 0.0, sign > 0 ? 0.0 : -1.0},
                          -d_.dot(p),
                          0});
@@ -177,7 +181,7 @@ class DepthOfParts {
     }
     const auto count = static_cast<std::uint32_t>(list_.size());
     for (std::uint32_t i = 0; i < count; ++i) list_[i].name = i;
-    const double most = 8 * kSteepest * (size + 1);
+    const double most = 32 * kSteepest;  // the coordinates of p are at most 2
     const Bounds<double, 4> bounds{{most, most, most, most},
                                    {count, count + 1, count + 2, count + 3}};
     const Point<double, 4> goal{0, 0, -1, -1};
@@ -185,7 +189,7 @@ class DepthOfParts {
     Tight<4> tight;
     if (!solve<double, 4>(bounds, std::span<const HalfSpace<double, 4>>(list_), goal, x, tight,
                           memory_) ||
-        !isOptimal(tight, goal)) {
+        !isOptimal(tight, goal, 1 + std::abs(x[0]) + std::abs(x[1]))) {
       const auto row = [this](std::uint32_t i) { return list_[i]; };
       const Point<Rational, 4> exactGoal{0, 0, -1, -1};
       const auto best = exactOptimum<4>(count, row, exactGoal, rational(most), Tight<4>{});
@@ -203,7 +207,9 @@ class DepthOfParts {
  private:
   /// Returns whether the goal is a sum of the normals of the tight rows with weights of at least 0:
   /// then no point is better. Rounding hides the best point if more than four planes meet in it.
-  bool isOptimal(const seidel::Tight<4>& tight, const seidel::Point<double, 4>& goal) const {
+  /// @param steep at least the length of n.
+  bool isOptimal(const seidel::Tight<4>& tight, const seidel::Point<double, 4>& goal,
+                 double steep) const {
     Eigen::Matrix4d normals;
     for (int i = 0; i < 4; ++i) {
       const std::uint32_t name = tight.name[static_cast<std::size_t>(i)];
@@ -211,9 +217,10 @@ class DepthOfParts {
       normals.col(i) = Eigen::Vector4d(list_[name].normal.data());
     }
     const Eigen::Vector4d weights = normals.fullPivLu().solve(Eigen::Vector4d(goal.data()));
-    // The weights of the planes of a, and those of b, sum up to 1. One below 0 by less than 2^-40
-    // raises the depth by less than 2^-40 of the size.
-    return weights.minCoeff() > -0x1p-40;
+    // A weight below 0 raises the depth by its size times how far the row may be from tight: for a
+    // point, at most 8|n|; for a limit of the slopes, which is tight only if |n| ≥ 2^20, at most
+    // 2^21. So each of the four raises the depth by less than 2^-37 of the size.
+    return weights.minCoeff() > -0x1p-40 / steep;
   }
 
   Vec3 d_, e1_, e2_;
@@ -283,7 +290,8 @@ DepthByDescent depthByDescent(const DobkinKirkpatrick& a, const Transform& X_WA,
   const Vec3 n = best.normal.stableNormalized();
   const double rate = n.dot(d);  // at least 2^-21
   const auto [overlap, error] = overlapAlong(PosedSet(a, X_WA), PosedSet(b, X_WB), n);
-  if (overlap < -error) return result;  // the plane separates them, and b moves away from it
+  if (overlap < -error && rate > 8 * kUnit)
+    return result;  // the plane separates them, and b moves away from it
   result.found = best.depth;
   result.normal_W = n;
   // The product rounds by 3u of the sum of its terms' magnitudes, which is at most 1; d itself is

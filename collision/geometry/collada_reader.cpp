@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "collision/core/rounding.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/collada_mesh.h"
 #include "collision/geometry/mesh_readers.h"
@@ -168,7 +169,7 @@ class ColladaReader {
     // Transforms come before all else in a valid file, and apply to all of the node.
     for (const Element* child = node.FirstChildElement(); child;
          child = child->NextSiblingElement())
-      if (const auto step = transformOf(*child)) path = path.below(*step);
+      if (const auto step = transformOf(*child)) path = path.below(step->map, step->turn);
     for (const Element* child = node.FirstChildElement(); child;
          child = child->NextSiblingElement()) {
       const std::string_view name = nameOf(*child);
@@ -186,8 +187,12 @@ class ColladaReader {
     faults_.throwIfAny();
   }
 
-  /// Returns the map of a transform of a node; nullopt for other elements.
-  std::optional<Eigen::Affine3d> transformOf(const Element& element) {
+  struct Step {
+    Eigen::Affine3d map = Eigen::Affine3d::Identity();
+    double turn = 0;  ///< error of the angle by the rounding of its decimal number, radians
+  };
+  /// Returns the transform that an element of a node is; nullopt for other elements.
+  std::optional<Step> transformOf(const Element& element) {
     const std::string_view name = nameOf(element);
     const std::size_t size = name == "matrix"                         ? 16
                              : name == "rotate"                       ? 4
@@ -198,7 +203,8 @@ class ColladaReader {
     const std::string place = "<" + std::string(name) + ">";
     const std::vector<double> numbers =
         xml::numbersIn(xml::textOf(element, faults_), place, element.GetLineNum(), faults_);
-    Eigen::Affine3d step = Eigen::Affine3d::Identity();
+    Step result;
+    Eigen::Affine3d& step = result.map;
     if (numbers.size() != size) {
       document_.fault(element, place + " needs " + std::to_string(size) + " decimal numbers");
     } else if (name == "translate") {
@@ -213,7 +219,8 @@ class ColladaReader {
                         "the angle of <rotate> is beyond 1e6 degrees; write it within 360");
       if (!(axis.squaredNorm() > 0.5) && angle != 0)
         document_.fault(element, "the axis of <rotate> is 0");
-      else if (angle != 0)
+      result.turn = kUnit * std::abs(numbers[3]) * (M_PI / 180);
+      if (angle != 0 && axis.squaredNorm() > 0.5)
         step.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
     } else {
       const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> m(numbers.data());
@@ -222,7 +229,7 @@ class ColladaReader {
                         "the last row of a <matrix> is not 0 0 0 1, which is not supported");
       step.matrix() = m;
     }
-    return step;
+    return result;
   }
 
   const ScenePart& partOf(const Element& geometry) {

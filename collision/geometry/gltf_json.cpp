@@ -47,7 +47,10 @@ void checkNumbers(std::string_view text, MeshFaults& faults) {
   bool isInText = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '"') isInText = !isInText;
-    if (text[i] == '\\') ++i;
+    if (text[i] == '\\') {
+      ++i;
+      continue;
+    }
     if (isInText || text[i] < '0' || text[i] > '9') continue;
     const std::size_t end = std::min(text.find_first_not_of("0123456789.eE+-", i), text.size());
     double number = 1;

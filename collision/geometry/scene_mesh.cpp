@@ -37,7 +37,7 @@ void ScenePart::addFace(std::initializer_list<std::uint32_t> indices, int line) 
   faces.push_back({static_cast<std::uint32_t>(indices.size()), line});
 }
 
-NodePath NodePath::below(const Eigen::Affine3d& step) const {
+NodePath NodePath::below(const Eigen::Affine3d& step, double turn) const {
   NodePath path;
   path.map_ = map_ * step;
   const double stretch = Eigen::JacobiSVD<Mat3>(step.linear()).singularValues()[0];
@@ -46,7 +46,7 @@ NodePath NodePath::below(const Eigen::Affine3d& step) const {
   path.length_ = length_ + scale_ * length;
   // An error e of each entry is one of less than 2e‖step‖ of each entry of the product, which
   // loses at most the least normal number in each of three products.
-  path.lost_ = 2 * lost_ * stretch + 4 * kLeastNormal;
+  path.lost_ = 2 * lost_ * stretch + scale_ * turn + 4 * kLeastNormal;
   path.lostLength_ = lostLength_ + 2 * lost_ * length + 4 * kLeastNormal;
   path.steps_ = steps_ + 1;
   return path;
@@ -68,6 +68,8 @@ double NodePath::rounding(double farthest) const {
 bool NodePath::isMirrored() const {
   Mat3 map = map_.linear();
   for (int k = 0; k < 3; ++k) map.col(k) /= map.col(k).cwiseAbs().maxCoeff();  // against underflow
+  for (int k = 0; k < 3; ++k)
+    if (const double largest = map.row(k).cwiseAbs().maxCoeff(); largest > 0) map.row(k) /= largest;
   return map.determinant() < 0;
 }
 
@@ -125,7 +127,8 @@ void SceneMesh::add(const ScenePart& part, const NodePath& path) {
   }
   if (part.faces.empty()) return;
   const double error = path.rounding(farthest), extent = (upper - lower).stableNorm();
-  if (farthest == 0 && path.map().translation().isZero(0)) return;  // all are the origin
+  if (farthest == 0 && path.length() == 0) return;  // all are the origin
+  if (!std::isfinite(farthest)) return;             // `take` reports it
   if (error == 0) return;
   if (error == HUGE_VAL)
     faults_.fail(

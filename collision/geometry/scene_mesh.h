@@ -32,9 +32,12 @@ struct ScenePart {
 class NodePath {
  public:
   /// Returns the path to a child, or to the next transform of the same node.
-  NodePath below(const Eigen::Affine3d& step) const;
+  /// @param turn a bound of an error of the step's rotation that its entries have beside their
+  /// rounding, radians.
+  NodePath below(const Eigen::Affine3d& step, double turn = 0) const;
 
   const Eigen::Affine3d& map() const { return map_; }
+  double length() const { return length_; }
   /// Says whether the map turns left hands into right ones.
   bool isMirrored() const;
   /// Returns a bound of the rounding of points that are at most so far from the origin of the
@@ -72,7 +75,7 @@ class SceneMesh {
 
   /// Returns the mesh, with its polygons cut and equal vertices merged. @throws InputError if there
   /// are no faces, if a polygon crosses itself, or if rounding may move a part by more than 1 % of
-  /// its size. (It is noted above 1e-4.)
+  /// its size. (It is noted above 1e-4, and always for parts that are a point.)
   ReadMesh take(std::string format);
 
  private:

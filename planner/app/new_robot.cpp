@@ -13,6 +13,7 @@
 #include "planner/model/model_builder.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/assembly.h"
+#include "planner/problem/joint_yaml.h"
 #include "planner/robot/joint_types.h"
 #include "planner/robot/urdf_file.h"
 
@@ -99,19 +100,15 @@ std::string jointText(const RobotDescription& model, const JointModel& joint) {
 
 /// @throws InputError if a joint of --joints is not one that can be planned for.
 void requireMoving(const std::vector<std::string>& joints, const RobotDescription& model) {
-  std::vector<std::string> known;
-  for (const JointModel& joint : model.joints)
-    if (canMove(joint)) known.push_back(joint.name);
+  const auto refuse = [](const std::string& why) { throw InputError(Fault{"--joints", 0, why}); };
   for (auto name = joints.begin(); name != joints.end(); ++name) {
     const auto j = findJoint(model, *name);
-    if (!j)
-      throw InputError(Fault{
-          "--joints", 0,
-          "there is no joint " + quotedWord(*name) + didYouMean(*name, known) + knownWords(known)});
-    if (!canMove(model.joints[*j]))
-      throw InputError(Fault{"--joints", 0, quotedWord(*name) + " can't be planned for"});
+    if (!j) refuse(noSuchJoint(*name, model));
+    if (const std::string why = whyNotActive(model, *j); !why.empty())
+      refuse(quotedWord(*name) + " " + why);
+    if (!canMove(model.joints[*j])) refuse(quotedWord(*name) + " can't move: its limits are equal");
     if (std::find(joints.begin(), name, *name) != name)
-      throw InputError(Fault{"--joints", 0, quotedWord(*name) + " is named twice"});
+      refuse(quotedWord(*name) + " is named twice");
   }
 }
 

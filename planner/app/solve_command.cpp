@@ -123,7 +123,7 @@ int serveProblems(const SolveArguments& a, RankJob& job) {
 }
 
 int solveCommand(const SolveArguments& a) {
-  RankJob job(a.jobs);
+  RankJob job(a.jobs);  // also without MPI: it listens for Ctrl-C
   if (job.serves()) return serveProblems(a, job);
   if (a.from && !a.picture)
     throw InputError(Fault{"--from", 0, "needs --picture, which is not given"});

@@ -170,8 +170,8 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
                     {"checker", r.checker},
                     {"certified", r.certified},
                     {"left_out", leftOutJson(p.model, r.leftOut)},
-                    {"tolerance_m", r.proofOptions.tolerance},
-                    {"margin_m", r.proofOptions.margin},
+                    {"tolerance_m", r.tolerance},
+                    {"margin_m", r.margin},
                     {"tube", tubeJson(p.model.space, p.task.tube)}};
   if (!p.source.notes.empty()) j["notes"] = textsOf(p.source.notes);
   if (!r.warnings.empty()) {

@@ -240,12 +240,9 @@ int verifyCommand(const VerifyArguments& a) {
   const Verified verified = verify(problem, a);
   if (a.limits && !verified.report.limits)
     throw InputError(Fault{"--limits", 0, a.solution + " has no times, so it has no speed"});
-  std::optional<Checker> checker;
-  if (hasFixedPairs(problem.model)) {
-    checker.emplace(problem);
-    addFirst(notesOnStart(*checker, startOf(problem)), problem.source.notes);
-  }
-  const LeftOut leftOut = checker ? leftOutOf(*checker) : leftOutOf(problem);
+  const Checker checker(problem);  // for notes, and what the proof leaves out
+  addFirst(notesOnStart(checker, startOf(problem)), problem.source.notes);
+  const LeftOut leftOut = leftOutOf(checker);
   if (!a.json) {
     print(verified.report, problem, leftOut, a);
   } else if (!a.quiet) {

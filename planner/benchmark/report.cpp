@@ -76,14 +76,12 @@ class Report {
       solved = figures(figure(profileOfAll(ranked_, rankedCells_)));
     }
     if (campaign_.verify) {
-      error += figuresOfEach(timeAgainstRefuted);
-      clearance = figuresOfEach(clearances);
+      error += figuresOfEach(timeAgainstRefuted, campaign_, cells_);
+      clearance = figuresOfEach(clearances, campaign_, cells_);
     } else {
       error = clearance = "<p>Paths were not verified.</p>";
     }
-    solved += figuresOfEach([&](const Campaign&, const std::vector<CampaignCell>&, std::size_t p) {
-      return solvedOverTime(ranked_, rankedCells_, p);
-    });
+    solved += figuresOfEach(solvedOverTime, ranked_, rankedCells_);
     const std::string name = campaign_.name.empty() ? "Comparison" : campaign_.name;
     const std::string page =
         view::filled(reportFile("report.html"),
@@ -173,11 +171,12 @@ class Report {
   static std::string figures(const std::string& all) {
     return "<div class=\"plots\">" + all + "</div>\n";
   }
-  template <class MakePlot>
-  std::string figuresOfEach(const MakePlot& plot) {
+  std::string figuresOfEach(Plot (*plot)(const Campaign&, const std::vector<CampaignCell>&,
+                                         std::size_t),
+                            const Campaign& campaign, const std::vector<CampaignCell>& cells) {
     std::string all;
-    for (std::size_t p = 0; p < campaign_.problems.size(); ++p)
-      all += figure(plot(campaign_, cells_, p), campaign_.problems.size() > kMostAtOnce);
+    for (std::size_t p = 0; p < campaign.problems.size(); ++p)
+      all += figure(plot(campaign, cells, p), campaign.problems.size() > kMostAtOnce);
     return ofEach("Plots", figures(all));
   }
   std::string cellTables() const {

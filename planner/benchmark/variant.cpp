@@ -29,7 +29,7 @@ YamlValue checkerMap(const std::vector<std::pair<std::string, std::string>>& key
   YamlValue map;
   map.kind = YamlValue::Kind::Map;
   for (const auto& [key, text] : keys)
-    map.entries.push_back({key, 0, {YamlValue::Kind::Scalar, 0, text, true, {}, {}}});
+    map.entries.push_back({key, 0, {YamlValue::Kind::Scalar, 0, text, true, false, {}, {}}});
   return map;
 }
 

@@ -28,14 +28,14 @@ class EnclosureTest {
   EnclosureTest(const Checker& checker, const Configuration& q)
       : scene_(checker.scene()), X_WF_(framePoses(checker.model().tree, q)) {
     for (const ModelBody& body : checker.model().bodies)
-      for (const PlacedShape& shape : body.shapes)
-        boxes_.push_back(boundsOf(shape, X_WF_[body.frame]));
+      for (const PlacedShape& shape : body.shapes) shapes_.push_back(&shape);
+    boxes_.resize(shapes_.size());
   }
 
   /// @param outer, inner shapes of the scene.
   bool operator()(std::size_t outer, std::size_t inner) {
     const Posed<Body> a = posed(outer), b = posed(inner);
-    if (!a.shape.isMesh() || a.shape.solid() || !contains(boxes_[outer], boxes_[inner]) ||
+    if (!a.shape.isMesh() || a.shape.solid() || !contains(boxOf(outer), boxOf(inner)) ||
         interference(a, b, context_))
       return false;
     const MeshWithComponents around{a.shape.binaryTree(), a.shape.components()};
@@ -52,9 +52,16 @@ class EnclosureTest {
     return Posed(placed.body, X_WF_[placed.frame]);
   }
 
+  const Corners& boxOf(std::size_t shape) {
+    std::optional<Corners>& box = boxes_[shape];
+    if (!box) box = boundsOf(*shapes_[shape], X_WF_[scene_.bodies()[shape].frame]);
+    return *box;
+  }
+
   const Scene& scene_;
   std::vector<Transform> X_WF_;
-  std::vector<Corners> boxes_;  // of the shapes, in the world
+  std::vector<const PlacedShape*> shapes_;     // in the order of the scene's bodies
+  std::vector<std::optional<Corners>> boxes_;  // in the world, once they were needed
   QueryContext context_;
 };
 

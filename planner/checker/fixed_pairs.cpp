@@ -24,9 +24,9 @@ BoundingBox boxOf(const ModelBody& body, const Transform& X_WF) {
 
 /// Tests two bodies against each other at one configuration: whether they touch, or are not farther
 /// apart than margin and padding.
-class StillTest {
+class FixedPairTest {
  public:
-  StillTest(const Checker& checker, const Configuration& q)
+  FixedPairTest(const Checker& checker, const Configuration& q)
       : checker_(checker),
         X_WF_(framePoses(checker.model().tree, q)),
         boxes_(checker.model().bodies.size()) {
@@ -87,7 +87,7 @@ bool hasFixedPairs(const Model& model) {
 std::vector<FixedPair> closeFixedPairs(const Checker& checker, const Configuration& q) {
   requireStandardFloatingPoint();
   const Model& model = checker.model();
-  StillTest test(checker, q);
+  FixedPairTest test(checker, q);
   std::vector<FixedPair> found;
   forEachPair(model, checker.required(), [&](std::size_t a, std::size_t b, std::string_view why) {
     if (why != kNeverMove || model.bodies[a].robot == model.bodies[b].robot) return;

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <future>
 #include <map>
 #include <numbers>
 #include <queue>
@@ -13,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/core/parallel.h"
 namespace corridor {
 namespace {
 
@@ -70,11 +70,9 @@ std::vector<NeverInContactResult> firstAttempts(const NeverInContact& prover,
       results[i] = prover.prove(pairs[wanted[i]].a, pairs[wanted[i]].b,
                                 limitsOf(options, boxes, UINT64_MAX / kMostTestsPerBox), context);
   };
-  std::vector<std::future<void>> threads;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency() && i < wanted.size(); ++i)
-    threads.push_back(std::async(std::launch::async, work));
-  work();
-  for (std::future<void>& thread : threads) thread.get();  // throws what the thread has thrown
+  onThreads(static_cast<unsigned>(
+                std::min<std::size_t>(std::thread::hardware_concurrency(), wanted.size())),
+            work);
   return results;
 }
 
@@ -85,38 +83,41 @@ void proveWithin(const Checker& checker, const PairSurveyOptions& options,
   if (wanted.empty()) return;
   std::priority_queue<Attempt, std::vector<Attempt>, std::greater<>> attempts;
   const auto firstBoxes = std::clamp<std::uint64_t>(options.work / wanted.size(), 1, kFirstBoxes);
-  // The cost of a repeated attempt is not negative, so all first attempts come before all repeated
-  // ones.
-  for (const std::size_t pair : wanted) attempts.push({-1, pair, firstBoxes});
   const NeverInContact prover(checker.model(), checker.scene());
   std::vector<NeverInContactResult> first =
       firstAttempts(prover, options, wanted, firstBoxes, pairs);
-  std::size_t taken = 0;  // of `first`, in the order of `wanted`, which is that of the queue
   QueryContext context;
-  while (!attempts.empty() && progress.work < options.work && !isSet(options.interrupted)) {
+  const auto goesOn = [&] { return progress.work < options.work && !isSet(options.interrupted); };
+  // Counts the work of a pair's newest attempt, and adds a repeated attempt if it may decide more.
+  const auto finish = [&](std::size_t index, std::uint64_t boxes, std::size_t waiting) {
+    const NeverInContactResult& proof = *pairs[index].proof;
+    progress.work +=
+        std::min(options.work - progress.work, proof.boxes + proof.tests / kTestsPerBox);
+    progress.proved += proof.verdict == Verdict::proved;
+    if (proof.verdict == Verdict::workLimit && !proof.exhausted && boxes <= kMostBoxes / kMoreBoxes)
+      attempts.push({static_cast<double>(kMoreBoxes * boxes) * std::max(0.0, 1 - proof.provedShare),
+                     index, kMoreBoxes * boxes});
+    progress.undecided = waiting + attempts.size();
+    if (options.progress) options.progress(progress);
+  };
+  const auto prove = [&](std::size_t index, std::uint64_t boxes, std::uint64_t left) {
+    return prover.prove(pairs[index].a, pairs[index].b, limitsOf(options, boxes, left), context);
+  };
+  for (std::size_t i = 0; i < wanted.size() && goesOn(); ++i) {
+    const std::uint64_t left = options.work - progress.work;
+    const bool isAsAlone = kMostTestsPerBox / kTestsPerBox * firstBoxes <= left;
+    pairs[wanted[i]].proof = isAsAlone ? std::move(first[i]) : prove(wanted[i], firstBoxes, left);
+    finish(wanted[i], firstBoxes, wanted.size() - 1 - i);
+  }
+  while (!attempts.empty() && goesOn()) {
     const Attempt attempt = attempts.top();
     attempts.pop();
-    SurveyedPair& pair = pairs[attempt.pair];
+    std::optional<NeverInContactResult>& proof = pairs[attempt.pair].proof;
     const std::uint64_t left = options.work - progress.work;
     // An attempt with no more boxes than the previous attempt at this pair would decide nothing.
-    if (pair.proof && left <= pair.proof->boxes) continue;
-    const bool isFirst = taken < first.size(),
-               isAsAlone = kMostTestsPerBox / kTestsPerBox * attempt.boxes <= left;
-    if (isFirst && isAsAlone)
-      pair.proof = std::move(first[taken]);
-    else
-      pair.proof = prover.prove(pair.a, pair.b, limitsOf(options, attempt.boxes, left), context);
-    taken += isFirst;
-    progress.work += std::min(left, pair.proof->boxes + pair.proof->tests / kTestsPerBox);
-    progress.proved += pair.proof->verdict == Verdict::proved;
-    if (pair.proof->verdict == Verdict::workLimit && !pair.proof->exhausted &&
-        attempt.boxes <= kMostBoxes / kMoreBoxes) {
-      const std::uint64_t boxes = kMoreBoxes * attempt.boxes;
-      attempts.push({static_cast<double>(boxes) * std::max(0.0, 1 - pair.proof->provedShare),
-                     attempt.pair, boxes});
-    }
-    progress.undecided = attempts.size();
-    if (options.progress) options.progress(progress);
+    if (left <= proof->boxes) continue;
+    proof = prove(attempt.pair, attempt.boxes, left);
+    finish(attempt.pair, attempt.boxes, 0);
   }
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "collision/core/read_file.h"
@@ -60,9 +62,10 @@ std::optional<double> readLimit(const YamlMap& joint, const std::string& what,
     return std::nullopt;
   }
   joint.require(key, "the limit, such as " + key + ": 2");
-  if (what != "deceleration") return joint.quotableNumber(key, Range::Positive);
-  const auto value = joint.quotableNumber(key, Range::Any);
+  const bool isSigned = what == "deceleration";
+  auto value = joint.quotableNumber(key, isSigned ? Range::Any : Range::Positive);
   if (!value) return std::nullopt;
+  if (joint.find(key)->inDegrees) *value *= std::numbers::pi / 180;
   if (*value == 0) {
     joint.fault(key, "must not be 0");
     return std::nullopt;
@@ -179,7 +182,8 @@ void requireOneSet(const YamlValue& document, const YamlValue& parameters, const
 void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
                       LimitSpec& spec, FaultList& faults, std::vector<Note>& notes) {
   const YamlValue document =
-      parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"));
+      parseYaml(file.string(), readTextFile(file, "limits of joints (MoveIt's joint_limits.yaml)"),
+                {.angleTags = true});
   YamlSource source{file.string(), faults, {}};
   // Parameter files, and files that launch files load, have the limits under the key
   // `robot_description_planning`, beside other keys.

@@ -83,6 +83,19 @@ std::string frameOf(const YamlMap& message) {
   return map.textOrNone("frame_id");
 }
 
+std::optional<Eigen::Quaterniond> readQuaternion(const YamlMap& map, const char* key) {
+  const auto numbers = readNamed(map, key, {"x", "y", "z", "w"});
+  if (!numbers) return std::nullopt;
+  const std::vector<double>& n = *numbers;
+  const Eigen::Quaterniond q(n[3], n[0], n[1], n[2]);
+  if (!q.coeffs().isZero(0)) return ofOrdinarySize(q);
+  map.source().notes.push_back({map.pathOf(key) +
+                                    ": a quaternion of zeros, the default of messages, is read as "
+                                    "no rotation (MoveIt's rule)",
+                                NoteWeight::motion});
+  return Eigen::Quaterniond::Identity();
+}
+
 std::optional<RigidPose> readTransform(const YamlValue& value, const std::string& path,
                                        YamlSource& source) {
   const YamlMap map(value, path, &kTransform, source);
@@ -90,17 +103,7 @@ std::optional<RigidPose> readTransform(const YamlValue& value, const std::string
   const std::size_t before = source.faults.size();
   if (const auto p = readNamed(map, "translation", {"x", "y", "z"}))
     pose.p = Vec3((*p)[0], (*p)[1], (*p)[2]);
-  if (const auto q = readNamed(map, "rotation", {"x", "y", "z", "w"})) {
-    pose.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (pose.q.coeffs().isZero(0)) {
-      source.notes.push_back({path +
-                                  ".rotation: a quaternion of zeros, the default of messages, is "
-                                  "read as no rotation (MoveIt's rule)",
-                              NoteWeight::motion});
-      pose.q = Eigen::Quaterniond::Identity();
-    }
-    pose.q = ofOrdinarySize(pose.q);
-  }
+  if (const auto q = readQuaternion(map, "rotation")) pose.q = *q;
   return source.faults.size() == before ? std::optional(pose) : std::nullopt;
 }
 

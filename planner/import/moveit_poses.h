@@ -31,6 +31,11 @@ std::string written(const RigidPose& pose);
 /// Returns the frame that a message's `header` names, "" if there is none.
 std::string frameOf(const YamlMap& message);
 
+/// Reads a message geometry_msgs/Quaternion at a key, normalised as by `ofOrdinarySize`. Zeros, the
+/// default of messages, are no rotation, with a note (MoveIt's rule). Returns nullopt if a fault
+/// was added. @pre The map has the key.
+std::optional<Eigen::Quaterniond> readQuaternion(const YamlMap& map, const char* key);
+
 /// Reads a message geometry_msgs/Transform. Returns nullopt if a fault was added.
 std::optional<RigidPose> readTransform(const YamlValue& value, const std::string& path,
                                        YamlSource& source);

@@ -8,6 +8,7 @@
 #include "collision/core/error.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
+#include "planner/import/moveit_poses.h"
 #include "planner/problem/cloud_yaml.h"
 #include "planner/problem/yaml_ledger.h"
 
@@ -55,17 +56,9 @@ std::optional<Placement> readPose(const YamlValue& value, const std::string& pat
   }
   Orientation orientation;
   if (map.find("orientation")) {
-    const auto q = readNamed(map, "orientation", {"x", "y", "z", "w"});
+    const auto q = readQuaternion(map, "orientation");
     if (!q) return std::nullopt;
-    orientation.q = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (orientation.q.coeffs().isZero(0)) {
-      source.notes.push_back({path +
-                                  ".orientation: a quaternion of zeros, the default of messages, "
-                                  "is read as no rotation (MoveIt's rule)",
-                              NoteWeight::motion});
-      orientation.q = Eigen::Quaterniond::Identity();
-    }
-    orientation.q = ofOrdinarySize(orientation.q);
+    orientation.q = *q;
     orientation.R = rotationMatrix(orientation.q);
   }
   placement.pose.q = orientation.q;

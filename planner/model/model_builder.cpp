@@ -95,19 +95,6 @@ ModelBuilder& ModelBuilder::addRobot(ModelRobot robot) {
   return *this;
 }
 
-ModelRobot robotOf(const Model& model, std::size_t index) {
-  ModelRobot robot = model.robots.at(index);
-  robot.plannedJoints.clear();
-  robot.linkFrames.clear();
-  const std::string prefix = robot.name.empty() ? "" : robot.name + "/";
-  for (LinkModel& link : robot.description.links)
-    for (const ModelBody& body : model.bodies)
-      if (body.robot == index &&
-          body.name == (robot.isRigid() && !prefix.empty() ? robot.name : prefix + link.name))
-        link.shapes = body.shapes;
-  return robot;
-}
-
 ModelBuilder& ModelBuilder::addRobot(const std::filesystem::path& urdf,
                                      const UrdfOptions& options) {
   const std::size_t before = faults_.size();

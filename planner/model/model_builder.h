@@ -101,9 +101,6 @@ class ModelBuilder {
   std::vector<Fault> faults_;
 };
 
-/// Returns a robot of a model as `ModelBuilder::addRobot` takes it, with the shapes of its links.
-ModelRobot robotOf(const Model& model, std::size_t robot);
-
 /// Makes the description of a rigid robot. @param type planar or floating.
 RobotDescription rigidModel(const std::string& name, JointType type,
                             std::vector<PlacedShape> shapes);

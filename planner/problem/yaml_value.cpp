@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -16,9 +14,7 @@
 
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
-#include "collision/core/shortest.h"
 #include "collision/core/text_encoding.h"
-#include "planner/problem/number_text.h"
 
 namespace corridor {
 namespace {
@@ -108,14 +104,11 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& text) override {
     YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
-    if (const auto radians = radiansOf(mark, tag, text)) {
-      scalar.text = *radians;
-      scalar.isPlain = true;
-      return put(std::move(scalar));
-    }
-    requireNoTag(mark, tag, YamlValue::Kind::Scalar);
+    scalar.inDegrees = limits_.angleTags && tag == "!degrees";
+    const bool isAngle = scalar.inDegrees || (limits_.angleTags && tag == "!radians");
+    if (!isAngle) requireNoTag(mark, tag, YamlValue::Kind::Scalar);
     scalar.text = text;
-    scalar.isPlain = isPlainTag(tag);
+    scalar.isPlain = isAngle || isPlainTag(tag);
     if (!scalar.isPlain) checkQuotes(mark);
     put(std::move(scalar));
   }
@@ -154,27 +147,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   /// Refuses tags: `at: !cm [1, 2, 3]` is meant as centimetres, and no reader knows that.
   void requireNoTag(const YAML::Mark& mark, const std::string& tag, YamlValue::Kind kind) const {
-    if (!saysNothing(tag, kind))
-      fail(mark, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it");
-  }
-
-  /// Returns the number in radians for the tags of ROS in joint limits, as in `max_velocity:
-  /// !degrees 120.0`; nullopt for other scalars. Elsewhere these tags are faults.
-  std::optional<std::string> radiansOf(const YAML::Mark& mark, const std::string& tag,
-                                       const std::string& text) const {
-    static const std::set<std::string_view> limits{
-        "min_position",     "max_position",     "min_velocity", "max_velocity", "min_acceleration",
-        "max_acceleration", "max_deceleration", "min_jerk",     "max_jerk"};
-    if (tag != "!degrees" && tag != "!radians") return std::nullopt;
-    double number = 0;
-    const bool isValue = !open_.empty() && open_.back().value.kind == YamlValue::Kind::Map &&
-                         !open_.back().keyIsNext && !open_.back().value.entries.empty() &&
-                         limits.contains(open_.back().value.entries.back().key);
-    if (!isValue || !parseNumber(text, Range::Any, number).empty())
-      fail(mark, "tags (" + tag +
-                     ") are read in joint limits only; write the number without it, in the unit "
-                     "of its key");
-    return tag == "!degrees" ? shortest(number * (std::numbers::pi / 180)) : text;
+    if (saysNothing(tag, kind)) return;
+    fail(mark, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it" +
+                   (tag == "!degrees" || tag == "!radians" ? ", in the unit of its key" : ""));
   }
 
   /// Refuses quotes that are not closed: yaml-cpp takes the rest of the file as part of the value.

@@ -17,8 +17,9 @@ struct YamlValue {
 
   Kind kind = Kind::Null;
   int line = 0;
-  std::string text;      ///< Scalar
-  bool isPlain = false;  ///< Scalar: written without quotes, so it may be a number or true, false
+  std::string text;        ///< Scalar
+  bool isPlain = false;    ///< Scalar: written without quotes, so it may be a number or true, false
+  bool inDegrees = false;  ///< Scalar: tagged !degrees (`YamlLimits::angleTags`)
   std::vector<YamlValue> items;   ///< List
   std::vector<Entry> entries;     ///< Map
   mutable bool isOpened = false;  ///< Map: a YamlMap was made of it
@@ -43,6 +44,7 @@ struct YamlValue::Entry {
 struct YamlLimits {
   std::size_t nodes = 10'000'000;  ///< keys and values
   std::size_t depth = 64;          ///< the largest depth of nested lists and maps
+  bool angleTags = false;  ///< whether scalars may have the tags !degrees and !radians of ROS
 };
 
 /// Parses one YAML document. Empty ones may follow it: `rostopic echo` ends each message by `---`.

@@ -1,3 +1,4 @@
+#include <optional>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -96,12 +97,13 @@ py::array_t<bool> nearRobot(const NativeProblem& problem, const Array& points, c
   forEachUnlocked(all.size(), threads, [&](std::size_t i) {
     thread_local QueryContext context;
     out[i] = false;
-    const Body point("point", ConvexPart{{all[i]}, 0});
+    std::optional<Body> point;  // most points are far from all links
     for (std::size_t k = 0; k < links.size() && !out[i]; ++k) {
       if ((all[i].array() < boxes[k].lower.array()).any() ||
           (all[i].array() > boxes[k].upper.array()).any())
         continue;
-      out[i] = closerThan(Posed<Body>(point), links[k], distance, context);
+      if (!point) point.emplace("point", ConvexPart{{all[i]}, 0});
+      out[i] = closerThan(Posed<Body>(*point), links[k], distance, context);
     }
   });
   return near;

@@ -87,11 +87,7 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   SolveOptions options;
   options.noteLeftOut = true;
   options.valueOrigins = native.origins();
-  {
-    const py::gil_scoped_release unlocked;
-    native.checker();  // so that its trees serve the following problems, too
-  }
-  const std::vector<Body> meshes = native.meshes();
+  const std::vector<Body> meshes = native.ownMeshes();  // their trees serve later problems, too
   options.earlier = meshes;
   if (trajectory)
     options.trajectory =

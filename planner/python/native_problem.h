@@ -52,19 +52,39 @@ class NativeProblem {
     meshes_.clear();  // the checker has those that it uses
     return *checker_;
   }
+  /// Returns bodies of all meshes of the problem, which share the trees that exist or will be
+  /// built.
+  /// @throws InputError if a mesh of the problem can't be used.
+  std::vector<Body> ownMeshes() const {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!checker_) {
+        const CheckerOptions options = checkerOptions(problem_.task, problem_.settings.checker);
+        const Scene scene =
+            makeScene(problem_.model, requiredBy(problem_.task), options.trees.params, meshes_);
+        meshes_ = meshesOf(scene);
+      }
+    }
+    return meshes();
+  }
   /// Returns the meshes of the checker, or if there is none yet, those of earlier problems, with
   /// their trees. They share the trees.
   std::vector<Body> meshes() const {
     const std::lock_guard lock(mutex_);
+    if (checker_) return meshesOf(checker_->scene());
     std::vector<Body> meshes;
     for (const Body& body : meshes_) meshes.push_back(body.renamed(body.name()));
-    if (checker_)
-      for (const Scene::Placed& placed : checker_->scene().bodies())
-        if (placed.body.isMesh()) meshes.push_back(placed.body.renamed(placed.body.name()));
     return meshes;
   }
 
  private:
+  static std::vector<Body> meshesOf(const Scene& scene) {
+    std::vector<Body> meshes;
+    for (const Scene::Placed& placed : scene.bodies())
+      if (placed.body.isMesh()) meshes.push_back(placed.body.renamed(placed.body.name()));
+    return meshes;
+  }
+
   Problem problem_;
   std::map<std::string, std::string> origins_;
   std::shared_ptr<const NativeProblem> base_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -226,12 +227,10 @@ bool isUrdf(const std::filesystem::path& file) {
   if (extension == ".urdf" || isXacro(file)) return true;
   if ((!extension.empty() && extension != ".xml") || !whyNotOrdinaryFile(file).empty())
     return false;
-  std::string text;
-  try {
-    text = readTextFile(file, "a robot (URDF)");
-  } catch (const InputError&) {  // the reader of the file reports it
-    return false;
-  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(65536, '\0');  // comments, such as a licence, may come first
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
   std::size_t at = text.find('<');
   while (at != text.npos && at + 1 < text.size() && (text[at + 1] == '?' || text[at + 1] == '!'))
     at = text.find('<', text.compare(at, 4, "<!--") == 0 ? text.find("-->", at) : at + 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "planner/solve/shorten_curve.h"
@@ -191,10 +192,15 @@ MadeTrajectory standing(const Problem& problem, const Checker& checker, const Pa
   made.between =
       limitsJerk(problem.task.limits) ? RowInterpolation::quintic : RowInterpolation::cubic;
   const Configuration rest = Configuration::Zero(path.front().size());
+  Configuration last = path.back();
+  for (const Coordinate& c : problem.model.space.coordinates())  // rows are not taken modulo turns
+    if (const auto i = static_cast<Eigen::Index>(c.first); c.kind == Coordinate::Kind::circle)
+      last[i] +=
+          2 * std::numbers::pi * std::round((path.front()[i] - last[i]) / (2 * std::numbers::pi));
   double seconds = 1e-3;
   for (int attempt = 0; attempt < 30; ++attempt, seconds *= 2) {
-    proveText(problem, checker, {{0, path.front(), rest, rest}, {seconds, path.back(), rest, rest}},
-              kind, made);
+    proveText(problem, checker, {{0, path.front(), rest, rest}, {seconds, last, rest, rest}}, kind,
+              made);
     if (made.isGood() || !made.fault.empty()) break;
   }
   return made;
@@ -241,8 +247,8 @@ double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>&
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& along,
                               TrajectoryFileKind kind, const std::function<bool()>& stop) {
   const ConfigurationSpace& space = problem.model.space;
-  if (isStill(space, along)) return standing(problem, checker, along, kind);
   const Path path = withoutStillEdges(space, along);
+  if (isStill(space, path)) return standing(problem, checker, path, kind);
   MadeTrajectory begun;
   LawfulCurve smooth = smoothCurve(problem, checker, path, stop, begun);
   MadeTrajectory made =

@@ -199,8 +199,8 @@ Solution makeSolution(const Problem& problem, const SolveReport& report, std::st
   solution.seed = report.seed;
   solution.certified = report.certified;
   solution.checker = report.checker;
-  solution.tolerance = report.proofOptions.tolerance;
-  solution.margin = report.proofOptions.margin;
+  solution.tolerance = report.tolerance;
+  solution.margin = report.margin;
   if (report.clearance) solution.clearance = report.clearance->proved;
   solution.tube = problem.task.tube;
   solution.path = report.path;

@@ -92,10 +92,10 @@ struct SolveReport {
   /// Unset if no clearance is preferred (keep_clearance.h).
   std::optional<PathClearance> clearance;
   std::optional<MadeTrajectory> trajectory;  ///< set if solved and SolveOptions requests it
-  std::size_t rawStates = 0;   ///< states of the planner's own path, before simplifying
-  PathLength rawLength;        ///< length of the planner's own path
-  int version = 0;             ///< index of the simplified version returned; 0: the planner's own
-  MotionOptions proofOptions;  ///< tolerance and margin of the proof; its tube is the problem's
+  std::size_t rawStates = 0;  ///< states of the planner's own path, before simplifying
+  PathLength rawLength;       ///< length of the planner's own path
+  int version = 0;            ///< index of the simplified version returned; 0: the planner's own
+  double tolerance = 0, margin = 0;  ///< of the proof, metres; its tube is the problem's
 };
 
 /// Solves a problem: checks start and goals (one free goal is enough), plans, simplifies, and

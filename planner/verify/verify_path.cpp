@@ -125,7 +125,7 @@ class Verifier {
   bool single_;                                                              // a path of one state
   std::priority_queue<Interval, std::vector<Interval>, WorstOnTop> proved_;  // each with one pair
   std::map<int, PathFinding> findings_;                                      // key: edge
-  std::vector<PathFinding> restFindings_;                                    // of `heldPairs`
+  std::vector<PathFinding> heldFindings_;                                    // of `heldPairs`
   std::set<std::pair<std::size_t, std::size_t>> undecided_;                  // (edge, pair)
   Real smallest_ = kInfinity, leastAtStates_ = kInfinity;
   std::uint64_t queries_ = 0;
@@ -211,10 +211,10 @@ void Verifier::proveAtRest() {
     finding.inEveryState = true;
     // Two bodies of several shapes each have many pairs. One finding is enough.
     const auto same = std::find_if(
-        restFindings_.begin(), restFindings_.end(),
+        heldFindings_.begin(), heldFindings_.end(),
         [&](const PathFinding& each) { return each.a == finding.a && each.b == finding.b; });
-    if (same == restFindings_.end())
-      restFindings_.push_back(std::move(finding));
+    if (same == heldFindings_.end())
+      heldFindings_.push_back(std::move(finding));
     else if (same->verdict == PathVerdict::undecided)
       *same = std::move(finding);
   }
@@ -341,7 +341,7 @@ PathReport Verifier::run() {
 PathReport Verifier::report() const {
   PathReport report;
   report.edges = static_cast<int>(prover_.edges());
-  const bool isFreeAtRest = restFindings_.empty();
+  const bool isFreeAtRest = heldFindings_.empty();
   if (isFreeAtRest) report.edgesProved = report.edges - static_cast<int>(findings_.size());
   if (findings_.empty() && isFreeAtRest) {
     // A proved pair that is not in `proved_` had a bound of at least `usefulBound()`, and
@@ -358,7 +358,7 @@ PathReport Verifier::report() const {
     if (report.verdict == PathVerdict::proved) report.verdict = PathVerdict::undecided;
     if (report.findings.size() < std::size_t{kFindings}) report.findings.push_back(finding);
   };
-  for (const PathFinding& finding : restFindings_) include(finding);
+  for (const PathFinding& finding : heldFindings_) include(finding);
   for (const auto& [edge, finding] : findings_) include(finding);
   report.smallestDistanceMet = static_cast<double>(smallest_);
   report.distanceQueries = queries_ + (prover_.allPairs() - prover_.pairs());

@@ -10,11 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def _has_text(value: Any) -> bool:
-    try:
-        array = np.asarray(value)
-    except (TypeError, ValueError, OverflowError):
-        return False  # _array raises an error that says why
+def _has_text(array: NDArray[Any]) -> bool:
     return array.dtype.kind in "SU" or (array.dtype.kind == "O" and any(isinstance(x, (str, bytes)) for x in array.flat))
 
 
@@ -27,16 +23,17 @@ def _file(name: str, value: Any) -> str:
 
 def _array(name: str, value: Any) -> NDArray[np.float64]:
     """Returns a copy as doubles. Other numbers are rounded to the nearest double; proofs are about the doubles."""
-    real = not isinstance(value, np.ma.MaskedArray)
-    if _has_text(value):
-        raise ValueError(f"{name}: an array of numbers is needed, not of texts")
     try:
-        real = real and not np.iscomplexobj(value)
-        array = np.array(value, dtype=float) if real else np.zeros(0)
+        given = np.asarray(value)
+        real = not isinstance(value, np.ma.MaskedArray) and given.dtype.kind != "c"
+        has_text = _has_text(given)
+        array = np.array(given, dtype=float) if real and not has_text else np.zeros(0)
     except (TypeError, ValueError, OverflowError) as error:
         rows = "inhomogeneous" in str(error) or "sequence" in str(error)
         why = ", with rows of equal length" if rows else f": {error}"
         raise ValueError(f"{name}: an array of numbers is needed{why}") from None
+    if has_text:
+        raise ValueError(f"{name}: an array of numbers is needed, not of texts")
     if not real:
         raise ValueError(f"{name}: an array of real numbers without a mask is needed")
     return array

@@ -195,11 +195,16 @@ TEST(HierarchyDescent, DepthsOfPartsWhereManyPlanesMeet) {
                                                                   {-1, -1, -1}},
                                                                  {1, 0, 1},
                                                                  {1, 1, 1}}}) {
-    const DobkinKirkpatrick a{Polytope(pointsA)}, b{Polytope(pointsB)};
-    Transform X;
-    X.t = t;
-    const Penetration known = penetrationAlong(PosedSet(a, {}), PosedSet(b, X), d);
-    EXPECT_NEAR(depthByDescent(a, {}, b, X, d).upper, known.upper, 1e-8 * known.upper);
+    for (const double scale : {0x1p-100, 1.0, 0x1p60, 0x1p100}) {
+      auto scaledA = pointsA, scaledB = pointsB;
+      for (auto* points : {&scaledA, &scaledB})
+        for (Vec3& p : *points) p *= scale;
+      const DobkinKirkpatrick a{Polytope(scaledA)}, b{Polytope(scaledB)};
+      Transform X;
+      X.t = scale * t;
+      const Penetration known = penetrationAlong(PosedSet(a, {}), PosedSet(b, X), d);
+      EXPECT_NEAR(depthByDescent(a, {}, b, X, d).upper, known.upper, 1e-8 * known.upper) << scale;
+    }
   }
 }
 

@@ -1,6 +1,8 @@
 // The bound of the rounding of transforms, against products in more digits.
 #include "collision/geometry/scene_mesh.h"
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -74,7 +76,32 @@ TEST(NodePath, MirrorsOfAnySize) {
   for (const double s : {1e-249, 1e-170, 1e-5, 1.0, 1e170, 1e249}) {
     EXPECT_TRUE(isMirrored(1, s, -s)) << s;
     EXPECT_FALSE(isMirrored(1, -s, -s)) << s;
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    EXPECT_TRUE(
+        NodePath().below(Eigen::Affine3d(Eigen::Scaling(s, -s, 1.0))).below(turn).isMirrored())
+        << s;
   }
+}
+
+/// The rounding of a decimal angle beyond a turn is more than that of the map's entries.
+TEST(NodePath, LargeAngles) {
+  const double degrees = 999'999.3;
+  const Eigen::Affine3d turn(
+      Eigen::AngleAxisd(std::fmod(degrees, 360) * (std::numbers::pi / 180), Vec3::UnitZ()));
+  // The decimal's double is off by up to half an ulp, which the fmod keeps.
+  const double off = 0x1p-53 * degrees * (std::numbers::pi / 180);
+  const Eigen::Affine3d far(Eigen::Translation3d(1e9, 0, 0));
+  EXPECT_LT(NodePath().below(turn).below(far).rounding(0), 1e9 * off);
+  EXPECT_GE(NodePath().below(turn, off).below(far).rounding(0), 1e9 * off);
+}
+
+/// Translations that cancel lose what is small between them.
+TEST(NodePath, TheLengthOfTranslationsThatCancel) {
+  NodePath path;
+  for (const double x : {1e16, 0.3, -1e16})
+    path = path.below(Eigen::Affine3d(Eigen::Translation3d(x, 0, 0)));
+  EXPECT_GE(path.length(), 2e16);
+  EXPECT_GE(path.rounding(0), std::abs(path.map().translation().x() - 0.3));
 }
 
 /// An entry of the product on the way is subnormal, and the later ones make it large again.

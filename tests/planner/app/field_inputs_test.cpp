@@ -242,6 +242,12 @@ TEST_F(FieldInputs, LimitsAndWeights) {
   EXPECT_THAT(run("check p.yaml --states states.txt").err, HasSubstr("<limit> are not used"));
   write("rows.csv", "time,turn,eq\n0,0,0\n1,1,0\n");
   EXPECT_THAT(run("verify p.yaml rows.csv").err, Not(HasSubstr("hold")));
+  // Start and goal on both sides of π, nearly equal: rows are not taken modulo turns.
+  write("pi.yaml",
+        "format: corridor-problem-1\nrobot: limit.urdf\nworld: {}\n"
+        "start: {turn: 3.1415926535}\ngoal: {turn: -3.1415926535}\n");
+  EXPECT_EQ(run("solve pi.yaml --trajectory pi.csv").status, 0);
+  EXPECT_EQ(run("verify pi.yaml pi.csv").status, 0);
   // The tags of ROS.
   write("jl.yaml",
         "joint_limits:\n  turn: {has_velocity_limits: true, max_velocity: !degrees 90.0}\n");

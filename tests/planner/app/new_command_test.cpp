@@ -119,8 +119,7 @@ TEST_F(NewCommand, OptionsReplaceEdits) {
       "new robot reach.urdf --joints elbow,sholder",
       "--joints: there is no joint \"sholder\" (did you mean \"shoulder\"?) (known: shoulder, "
       "elbow)");
-  expectFault("new robot reach.urdf --joints \"to far\"",
-              "--joints: \"to far\" can't be planned for");
+  expectFault("new robot reach.urdf --joints \"to far\"", "--joints: \"to far\" is fixed");
   expectFault("new robot reach.urdf --joints elbow,elbow", "--joints: \"elbow\" is named twice");
 }
 

@@ -67,6 +67,19 @@ TEST_F(MakeTrajectory, EdgesOfNearlyNothing) {
   }
 }
 
+/// The edges together are longer than what counts as nothing, but lead to and fro.
+TEST_F(MakeTrajectory, EdgesToAndFro) {
+  const Problem problem = problemWith();
+  const Checker checker(problem);
+  for (const Path& path :
+       {Path{at(0, 0.2), at(6e-10, 0.2), at(0, 0.2)},
+        Path{at(0, 0.2), at(5e-10, 0.2), at(-5e-10, 0.2), at(5e-10, 0.2), at(1e-300, 0.2)}}) {
+    const MadeTrajectory made = makeTrajectory(problem, checker, path, TrajectoryFileKind::csv);
+    EXPECT_TRUE(made.isGood()) << made.fault;
+    EXPECT_EQ(made.rows, 2u);
+  }
+}
+
 /// Start and goal that are equal, or differ by roundings, give two rows.
 TEST_F(MakeTrajectory, PathsOfNearlyNothing) {
   for (const std::string more :
