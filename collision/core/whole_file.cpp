@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 #include "collision/core/error.h"
 #include "collision/core/user_signals.h"
@@ -33,6 +34,28 @@ class SignalBlocker {
  private:
   sigset_t before_{};
 };
+
+/// Opens a device or a pipe for writing. A pipe that nobody reads makes the program wait here. A
+/// signal by which users end programs ends it then, also if the program handles that signal:
+/// nothing is written yet.
+int openToWrite(const std::filesystem::path& file) {
+  struct Handled {
+    int signal;
+    struct sigaction action;
+  };
+  std::vector<Handled> handled;
+  for (const int signal : kUserSignals) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    handled.push_back({signal, action});
+    ::signal(signal, SIG_DFL);
+  }
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  const int failure = errno;
+  for (const Handled& each : handled) ::sigaction(each.signal, &each.action, nullptr);
+  errno = failure;
+  return descriptor;
+}
 
 /// Writes to an open file, and closes it. @returns 0, or the system's error number (-1 if it gives
 /// none).
@@ -140,7 +163,7 @@ void writeWhole(const std::filesystem::path& file,
     std::cout.flush();  // what was printed before stays before
     failure = writeTo(::dup(stream), write);
   } else if (isDevice) {
-    failure = writeTo(::open(file.c_str(), O_WRONLY | O_CLOEXEC), write);
+    failure = writeTo(openToWrite(file), write);
   } else {
     const SignalBlocker wait;
     const std::filesystem::path target = targetOf(file);

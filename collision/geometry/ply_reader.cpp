@@ -319,8 +319,11 @@ ReadMesh readPly(std::string_view bytes, MeshFaults& faults) {
 PointCloud readPlyPoints(std::string_view bytes, MeshFaults& faults) {
   const PlyHeader header = readPlyHeader(bytes, false, faults);
   ReadMesh read = readPlyElements(bytes, header, false, faults);
-  return {
+  PointCloud cloud{
       std::move(read.mesh.vertices), std::move(read.format), 0, false, 0, 0, header.statedUnits};
+  for (const PlyElement& element : header.elements)
+    if (element.name != "vertex" && element.count > 0) cloud.unreadElements.push_back(element.name);
+  return cloud;
 }
 
 }  // namespace corridor

@@ -29,6 +29,8 @@ struct PointCloud {
   int unnamedColumns = 0;
   /// The units that comments of a PLY or PCD file state. They are not applied.
   std::vector<StatedUnit> statedUnits = {};
+  /// The elements of a PLY file other than its vertices, such as "face". They are not read.
+  std::vector<std::string> unreadElements = {};
 };
 
 /// Reads the points of a file: the vertices of PLY; PCD (ASCII, binary and compressed); or a text

@@ -168,7 +168,7 @@ class AsciiStl {
 
 ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
   if (const std::string_view text = withoutByteOrderMark(bytes);
-      sameWord(text.substr(0, 5), "solid"))
+      sameWord(TextCursor(text.substr(0, headerSize)).word(), "solid"))
     bytes = text;
   // The size of the file is tested first, because many binary files also begin with "solid".
   const bool hasHeader = bytes.size() >= headerSize;

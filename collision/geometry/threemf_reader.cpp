@@ -312,6 +312,9 @@ std::string modelNamed(const std::string& relations, MeshFaults& faults) {
           relation->GetLineNum(),
           "_rels/.rels names a second model, which is not supported" + std::string(kInstead));
     target = xml::required(*relation, "Target", faults);
+    if (xml::attribute(*relation, "TargetMode").value_or("Internal") != "Internal")
+      faults.add(relation->GetLineNum(),
+                 "_rels/.rels names a model outside the archive" + std::string(kInstead));
   }
   if (target.empty())
     faults.add(0, "_rels/.rels must name the model of the archive" + std::string(kInstead));

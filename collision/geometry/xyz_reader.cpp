@@ -72,6 +72,18 @@ bool mixesCommasAndBlanks(std::string_view line) {
   return alone && tight;
 }
 
+/// Returns whether every second comma is a decimal mark, as in "1,5, 2,5, 3,5": it has no blank on
+/// either side, and each other comma has one.
+bool separatesByEverySecondComma(std::string_view line) {
+  int commas = 0;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    if (line[i] != ',') continue;
+    const bool tight = !isBlank(line[i - 1]) && !isBlank(line[i + 1]);
+    if (tight != (commas++ % 2 == 0)) return false;
+  }
+  return commas >= 5 && commas % 2 == 1;
+}
+
 /// Returns whether semicolons separate groups of numbers, as in "1 2 3; 4 5 6".
 bool hasGroups(std::string_view line) {
   for (std::size_t begin = 0; begin < line.size() && line.find(';') != line.npos;) {
@@ -155,7 +167,7 @@ class XyzReader {
       return fault("a point has 3 coordinates, found " + std::to_string(second.empty() ? 1 : 2));
     if (mark == ';' && hasGroups(line))
       return fault("semicolons separate groups of numbers; write a line for each point");
-    if (mark == ',' && mixesCommasAndBlanks(line))
+    if (mark == ',' && (mixesCommasAndBlanks(line) || separatesByEverySecondComma(line)))
       return fault(
           "has commas and blanks between numbers; use one of them, and write decimals with a "
           "point");

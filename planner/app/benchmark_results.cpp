@@ -66,7 +66,9 @@ void giveResults(Campaign& campaign, const CampaignResult& result, const Benchma
   try {
     if (target.folder && any) {
       writeReports(campaign, result, runs, *target.folder);
-      writeReport(campaign, result.cells, *target.folder, sessions);
+      std::string whyNoPlot;
+      writeReport(campaign, result.cells, *target.folder, sessions, &whyNoPlot);
+      if (!whyNoPlot.empty()) warn("plots are missing: " + withoutControls(whyNoPlot));
     }
   } catch (const InputError&) {
     unwritten = std::current_exception();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <numbers>
 #include <random>
@@ -12,6 +13,7 @@
 #include "planner/app/output.h"
 #include "planner/checker/pair_survey.h"
 #include "planner/model/model_builder.h"
+#include "planner/problem/assembly.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/state_text.h"
 #include "planner/robot/joint_types.h"
@@ -316,6 +318,8 @@ int newProblem(const NewProblemArguments& a) {
   text += end("start", 0) + end("goal", 1) + boundsText(alone) + kMore;
   writeNewFile(a.file, text);
 
+  std::vector<Note> notes = alone.model.robots.front().description.notes;
+  addAll(notesOnMeshes(alone.model.robots.front().description), notes);
   const ResultPrinter out(a.file.toStdout());
   if (a.file.output) out.line("problem", *a.file.output);
   for (std::size_t i = 0; i < 2; ++i)
@@ -324,6 +328,7 @@ int newProblem(const NewProblemArguments& a) {
     else
       out.line(i == 0 ? "start" : "goal", "no valid state was found", Tone::bad);
   if (!why.empty()) out.line("why", why);
+  for (const std::string& note : condensed(textsOf(notes))) std::cerr << "note: " << note << '\n';
   return found.size() == 2 ? kDone : kNegativeResult;
 }
 

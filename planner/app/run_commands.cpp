@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -65,6 +66,17 @@ int runCommands(int argc, char** argv,
   } catch (const std::filesystem::filesystem_error& error) {  // such as a folder that was deleted
     std::cerr << "corridor: " << withoutControls(error.what()) << '\n';
     return kBadInput;
+  } catch (const std::system_error& error) {  // such as a pipe for another process
+    const bool few = error.code() == std::errc::too_many_files_open ||
+                     error.code() == std::errc::too_many_files_open_in_system;
+    const bool isShort = few || error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << "corridor: " << (isShort ? "" : "internal error: ")
+              << withoutControls(error.what())
+              << (few       ? "; raise the limit on open files (ulimit -n)"
+                  : isShort ? "; raise the limit on processes (ulimit -u), or ask for fewer jobs"
+                            : "")
+              << '\n';
+    return isShort ? kBadInput : kInternal;
   } catch (const std::bad_alloc&) {
     std::cerr << "corridor: out of memory: too many bodies, pairs of bodies or triangles, or too "
                  "large a parameter";

@@ -16,6 +16,9 @@
 namespace corridor {
 namespace {
 
+constexpr const char* kNoGnuplot =
+    "gnuplot is not installed (Debian's gnuplot-nox), so there are no plots";
+
 namespace fs = std::filesystem;
 using view::escapedHtml;
 
@@ -63,6 +66,8 @@ class Report {
         reference_(referenceVariant(rankedCells_)),
         files_{folder / "report.html"} {}
 
+  /// Returns the reason why a plot is missing, or "".
+  const std::string& whyNoPlot() const { return whyNoPlot_; }
   std::vector<fs::path> write() {
     std::error_code failure;
     fs::create_directory(folder_ / "plots", failure);
@@ -144,8 +149,7 @@ class Report {
   }
   std::string notes() const {
     std::vector<std::string> notes = campaign_.notes;
-    if (!canPlot())
-      notes.push_back("gnuplot is not installed (Debian's gnuplot-nox), so there are no plots.");
+    if (!canPlot()) notes.push_back(std::string(kNoGnuplot) + ".");
     if (ranked_.variants.size() > kPlotColors)
       notes.push_back("There are more lines than colours: from the " +
                       std::to_string(kPlotColors + 1) + "th on the colours repeat.");
@@ -204,12 +208,16 @@ class Report {
       fs::remove(base.string() + ".svg", ignored);  // an earlier report may have left this file
       return "<figure><p>" + escapedHtml(plot.title + ": no plot" + why) + "</p></figure>\n";
     };
-    if (!canPlot()) return none("");
+    if (!canPlot()) {
+      whyNoPlot_ = kNoGnuplot;
+      return none("");
+    }
     std::string svg;
     try {
       svg = svgOf(plot, kPlotWidth, heightOf(plot));
     } catch (const std::runtime_error& error) {
-      return none(": " + std::string(error.what()));
+      whyNoPlot_ = error.what();
+      return none(": " + whyNoPlot_);
     }
     writeWhole(base.string() + ".svg", svg);
     files_.push_back(base.string() + ".svg");
@@ -236,14 +244,19 @@ class Report {
   std::size_t reference_;                       // of what is ranked
   std::vector<fs::path> files_;
   std::set<std::string> plots_;  // names of plots that are already used
+  std::string whyNoPlot_;        // of the last plot that is missing
 };
 
 }  // namespace
 
 std::vector<fs::path> writeReport(const Campaign& campaign, const std::vector<CampaignCell>& cells,
                                   const fs::path& folder,
-                                  const std::vector<CampaignSession>& sessions) {
-  return Report(campaign, cells, sessions, folder).write();
+                                  const std::vector<CampaignSession>& sessions,
+                                  std::string* whyNoPlot) {
+  Report report(campaign, cells, sessions, folder);
+  std::vector<fs::path> files = report.write();
+  if (whyNoPlot) *whyNoPlot = report.whyNoPlot();
+  return files;
 }
 
 }  // namespace corridor

@@ -96,14 +96,17 @@ void readFile(const YamlMap& map, const Model& model, bool isComplete, LimitSpec
     own.ignore({"min_position", "max_position", "has_effort_limits", "max_effort",
                 "angle_wraparound", "soft_lower_limit", "soft_upper_limit", "k_position",
                 "k_velocity"});
+    const auto names = [&](const char* a, const char* b) { return own.find(a) || own.find(b); };
     LimitValues values;
     values.velocity = readLimit(own, "velocity", notes);
     values.acceleration = readLimit(own, "acceleration", notes);
     if (const auto slowing = readLimit(own, "deceleration", notes))
       values.acceleration = std::min(values.acceleration.value_or(*slowing), *slowing);
     values.jerk = readLimit(own, "jerk", notes);
-    if (own.flag("has_position_limits").value_or(false)) positions.push_back(entry->key);
-    if (own.flag("has_soft_limits").value_or(false)) soft.push_back(entry->key);
+    if (own.flag("has_position_limits").value_or(names("min_position", "max_position")))
+      positions.push_back(entry->key);
+    if (own.flag("has_soft_limits").value_or(names("soft_lower_limit", "soft_upper_limit")))
+      soft.push_back(entry->key);
     bool used = false;
     for (const LimitedJoint& joint : joints) {
       if (joint.plain != entry->key) continue;
@@ -164,12 +167,19 @@ const YamlValue& parametersOf(const YamlValue& document, const YamlSource& sourc
   return found ? *found : first ? *first : document;
 }
 
-/// Adds a fault for each `joint_limits` beside the one that is read.
+/// Adds a fault for each `joint_limits` beside the map that is read, and a note for each scaling
+/// factor there.
 void requireOneSet(const YamlValue& document, const YamlValue& parameters, const YamlValue* inner,
-                   const YamlSource& source) {
+                   const YamlSource& source, std::vector<Note>& notes) {
   const auto fault = [&](const YamlValue& map) {
     if (const YamlValue* const second = valueIn(map, "joint_limits"))
       source.fault(second->line, "a second joint_limits, which is not read; keep one of them");
+    for (const char* key :
+         {"default_velocity_scaling_factor", "default_acceleration_scaling_factor"})
+      if (const YamlValue* const scale = valueIn(map, key))
+        notes.push_back({source.file + ":" + std::to_string(scale->line) + ": " + key +
+                             " is not used, because it does not stand beside joint_limits",
+                         NoteWeight::motion});
   };
   if (inner) fault(parameters);
   if (&parameters == &document) return;
@@ -189,7 +199,9 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   // `robot_description_planning`, beside other keys.
   const YamlValue& parameters = parametersOf(document, source);
   const YamlValue* const inner = valueIn(parameters, "robot_description_planning");
-  requireOneSet(document, parameters, inner, source);
+  std::vector<Note> beside;
+  requireOneSet(document, parameters, inner, source, beside);
+  if (isComplete) addAll(beside, notes);
   const YamlValue& read = inner ? *inner : parameters;
   readFile(YamlMap(read, inner ? "robot_description_planning" : "", &kFile, source), model,
            isComplete, spec, notes);

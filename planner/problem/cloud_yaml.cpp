@@ -33,6 +33,11 @@ bool readPoints(const YamlMap& inner, const MeshFileOptions& options, const Tran
          NoteWeight::coverage});
   if (const auto note = noteOnUnits(cloud.statedUnits, options.metresPerUnit.value_or(1)))
     shape.notes.push_back({shape.file.string() + ": " + *note, NoteWeight::coverage});
+  for (const std::string& element : cloud.unreadElements)
+    shape.notes.push_back({shape.file.string() + ": the element " + quotedWord(element) +
+                               " is not read, only its points" +
+                               (element == "face" ? " (the key mesh reads faces)" : ""),
+                           NoteWeight::coverage});
   if (cloud.hasViewpoint)
     shape.notes.push_back({shape.file.string() +
                                ": its viewpoint (the sensor's pose) is not applied; at and a "

@@ -237,7 +237,7 @@ std::optional<UrdfMimic> readMimic(XmlFile& file, Element& joint, const std::str
 /// is true. @returns whether the soft limits are narrower and were not applied.
 bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owner, UrdfJoint& joint,
             std::vector<Note>& notes) {
-  Element* const safety = element.FirstChildElement("safety_controller");
+  Element* const safety = file.child(element, "safety_controller", owner);
   const auto isGiven = [&](const char* limit) {
     return safety->FindAttribute(limit) && safety->DoubleAttribute(limit) != 0;
   };
@@ -249,9 +249,8 @@ bool narrow(XmlFile& file, Element& element, bool apply, const std::string& owne
                      NoteWeight::motion});
   if (!safety || !joint.limit) return false;
   if (joint.type != JointType::revolute && joint.type != JointType::prismatic) return false;
-  file.checkAttributes(*safety,
-                       {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"},
-                       owner + ": <safety_controller>", notes);
+  file.checkLeaf(*safety, {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"},
+                 owner, notes);
   if (apply &&
       !(safety->FindAttribute("soft_lower_limit") && safety->FindAttribute("soft_upper_limit")))
     notes.push_back({file.at(safety->GetLineNum(),
@@ -295,6 +294,21 @@ UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
     notes.push_back({file.at(joint.line, owner + ": is fixed, so its <mimic> is not used"),
                      NoteWeight::motion});
   return joint;
+}
+
+/// Returns the first parameter of <ros2_control> that limits a joint, or nullptr:
+/// `<param name="min">-1</param>` in the interface of a joint.
+const Element* controllersLimit(const Element& control) {
+  for (const Element* joint = control.FirstChildElement("joint"); joint;
+       joint = joint->NextSiblingElement("joint"))
+    for (const Element* part = joint->FirstChildElement(); part;
+         part = part->NextSiblingElement()) {
+      if (part->Name() == std::string_view("limits")) return part;
+      for (const Element* param = part->FirstChildElement("param"); param;
+           param = param->NextSiblingElement("param"))
+        if (param->Attribute("name", "min") || param->Attribute("name", "max")) return param;
+    }
+  return nullptr;
 }
 
 /// Returns whether this is a xacro file that was not expanded; if so, reports a fault. Without the
@@ -403,6 +417,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
   if (isXacro(file, root) || isSrdf(file, root) || isTooLarge(file, rules, root)) return outline;
   Lines links, joints;
   std::vector<std::string> visible, soft;  // names for the notes
+  const Element* control = nullptr;
   outline.name = file.text(root, "name", "").value_or("");
   file.checkAttributes(root, {"name", "version"}, owned("robot", outline.name), notes);
   const std::string version = root.Attribute("version") ? root.Attribute("version") : "";
@@ -421,6 +436,8 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
     else if (kind == "joint")
       outline.complete &= addUnique(readJoint(file, *element, rules, soft, notes), "joint",
                                     outline.joints, joints, file);
+    else if (kind == "ros2_control" && !control)
+      control = controllersLimit(*element);
   }
   const auto lineOf = [&](const std::vector<std::string>& names, const Lines& lines) {
     const auto first = lines.find(names.front());  // an element without a name has no entry
@@ -439,6 +456,11 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
                                  " used without the soft limits, which are narrower (limits: soft "
                                  "in robot.yaml applies them): " +
                                  joinedFirst(soft)),
+                     NoteWeight::motion});
+  if (control)
+    notes.push_back({file.at(control->GetLineNum(),
+                             "limits of joints in <ros2_control> are not used, only those of "
+                             "their <limit>"),
                      NoteWeight::motion});
   if (!root.FirstChildElement("link"))
     file.fault(root.GetLineNum(), "the robot has no <link>; at least one is needed");

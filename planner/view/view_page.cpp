@@ -21,6 +21,7 @@
 #include "planner/view/page_files.h"
 #include "planner/view/page_text.h"
 #include "planner/view/path_samples.h"
+#include "planner/view/tessellate.h"
 #include "planner/view/tree_boxes.h"
 
 namespace corridor {
@@ -69,6 +70,13 @@ class PageData {
     addTrees();
     std::vector<Note> notes = notesOnStart(checker_, startOf(problem_));
     addAll(problem_.source.notes, notes);
+    for (const ModelBody& body : problem_.model.bodies)
+      for (const PlacedShape& shape : body.shapes)
+        if (shape.parts.size() > kMostParts && shape.polygon.empty())
+          notes.push_back({body.name + ": this page shows some of its " +
+                               std::to_string(shape.parts.size()) +
+                               " parts, evenly chosen; the tests use all of them",
+                           NoteWeight::detail});
     json_["notes"] = textsOf(notes);
     if (path_) {
       addSolution();

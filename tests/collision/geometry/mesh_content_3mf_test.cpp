@@ -93,6 +93,8 @@ TEST_F(MeshContent, ThreeMfArchives) {
                     R"("http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>)"
                     "</Relationships>"),
             "a.3mf:2: _rels/.rels names a second model, which is not supported" + instead);
+  EXPECT_EQ(faultOf("<Relationship ", "<Relationship TargetMode=\"External\" "),
+            "a.3mf:2: _rels/.rels names a model outside the archive" + instead);
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<other/>"}}),
             model + ":1: the root element must be <model>, not <other>");
   EXPECT_EQ(fault({{"_rels/.rels", relations}, {"3D/3dmodel.model", "<model></model>\n<x/>"}}),

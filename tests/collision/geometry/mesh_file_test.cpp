@@ -64,6 +64,10 @@ TEST_F(ReadMeshFile, EveryFormatTakesWindowsLineEnds) {
   expectTetrahedron(read("a.ply", windows(asciiPlyTetrahedron)));
 }
 
+TEST_F(ReadMeshFile, StlWithAByteOrderMarkAndAnEmptyLine) {
+  expectTetrahedron(read("a.stl", "\xEF\xBB\xBF\n" + asciiStlTetrahedron()));
+}
+
 TEST_F(ReadMeshFile, ObjWithAByteOrderMarkLosesNoVertex) {
   const std::string text = objTetrahedron;
   expectTetrahedron(read("a.obj", "\xEF\xBB\xBF" + text.substr(text.find("v 0 0 0"))));

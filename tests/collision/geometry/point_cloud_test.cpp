@@ -183,7 +183,7 @@ TEST_F(PointCloudTest, TheContentDecidesWhatAFileIs) {
 TEST_F(PointCloudTest, DecimalCommas) {
   EXPECT_EQ(read("a.xyz", "1, 2, 3\n-0.5,0,4e-3\n7,8 , 9 \n").points, kThree);
   EXPECT_EQ(read("a.xyz", "1; 2; 3\n-0.5;0;4e-3\n7 ;8;9\n").points, kThree);
-  for (const char* line : {"1,5 2,5 3,5\n", "1,5\t2,5\t3,5\n", "  1,5 2 3\n"})
+  for (const char* line : {"1,5 2,5 3,5\n", "1,5\t2,5\t3,5\n", "  1,5 2 3\n", "1,5, 2,5, 3,5\n"})
     EXPECT_EQ(complaint("b.xyz", line),
               "b.xyz:1: has commas and blanks between numbers; use one of them, and write decimals "
               "with a point");

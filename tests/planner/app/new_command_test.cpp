@@ -308,6 +308,17 @@ TEST_F(NewCommand, WritesAProblemThatCanBeSolved) {
   }
 }
 
+TEST_F(NewCommand, NotesWhatANewProblemDoesNotTest) {
+  write("seen.urdf",
+        "<robot name='seen'><link name='a'><collision><geometry><sphere radius='1'/></geometry>"
+        "</collision></link><link name='b'><visual><geometry><sphere radius='1'/></geometry>"
+        "</visual></link><joint name='j' type='prismatic'><parent link='a'/><child link='b'/>"
+        "<axis xyz='1 0 0'/><limit lower='0' upper='1' effort='1' velocity='1'/></joint></robot>");
+  const Result result = run("new problem seen.urdf -o seen.yaml");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("note: seen.urdf:1: 1 link is not tested, having a <visual>"));
+}
+
 TEST_F(NewCommand, WritesProblemsOfBodiesThatMoveAsAWhole) {
   write(
       "cart.urdf",

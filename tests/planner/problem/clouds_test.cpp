@@ -106,6 +106,17 @@ TEST_F(Clouds, NotesOnComments) {
   EXPECT_THAT(notesOf(", unit: mm"), testing::Contains(note));
 }
 
+TEST_F(Clouds, NotesOnElementsThatAreNotPoints) {
+  write("a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+        "float z\nelement face 1\nproperty list uchar int vertex_indices\nelement grid 0\n"
+        "property int i\nend_header\n1 2 3\n3 0 0 0\n");
+  EXPECT_THAT(textsOf(read(problem("{points: {file: a.ply, radius: 0.1}}")).source.notes),
+              testing::Contains((folder_ / "a.ply").string() +
+                                ": the element \"face\" is not read, only its points (the key mesh "
+                                "reads faces)"));
+}
+
 /// The unit that a comment states is not applied. Text clouds are refused then; in PLY and PCD,
 /// whose writers copy comments, it is noted.
 TEST_F(Clouds, NotesOnUnits) {

@@ -208,6 +208,34 @@ TEST_F(LimitsTest, TwoSetsOfLimits) {
             "joint_limits.yaml:2" + why);
 }
 
+/// MoveIt reads the factors only beside joint_limits.
+TEST_F(LimitsTest, FactorsBesideOtherLimits) {
+  write("joint_limits.yaml",
+        "robot_description_planning:\n  joint_limits: {pan: {has_velocity_limits: true, "
+        "max_velocity: 2}}\ndefault_velocity_scaling_factor: 0.1\n");
+  EXPECT_EQ(specOf("  file: joint_limits.yaml\n").velocityScale, 1);
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_THAT(
+      notes_[0].text,
+      testing::HasSubstr("joint_limits.yaml:3: default_velocity_scaling_factor is not used, "
+                         "because it does not stand beside joint_limits"));
+}
+
+TEST_F(LimitsTest, PositionsWithoutTheirFlag) {
+  const auto notesOn = [&](const std::string& keys) {
+    notes_.clear();
+    write("joint_limits.yaml",
+          "joint_limits: {pan: {has_velocity_limits: true, max_velocity: 2, " + keys + "}}\n");
+    specOf("  file: joint_limits.yaml\n");
+    return textsOf(notes_);
+  };
+  EXPECT_THAT(notesOn("max_position: 1"),
+              testing::ElementsAre(testing::HasSubstr(": limits of the position of pan are not")));
+  EXPECT_THAT(notesOn("soft_lower_limit: 1"),
+              testing::ElementsAre(testing::HasSubstr(": soft limits of pan are not used")));
+  EXPECT_THAT(notesOn("has_position_limits: false, max_position: 1"), testing::IsEmpty());
+}
+
 TEST_F(LimitsTest, LinkSpeedLimitsTheBoxOfTheLink) {
   const JointLimits limits = limitsOf(model_, specOf("  link_speed: {finger: 0.25}\n"));
   ASSERT_EQ(limits.links.size(), 1);

@@ -373,6 +373,29 @@ TEST_F(UrdfFile, SoftLimits) {
             "r.urdf:4: joint \"j\": its soft limits leave no range: from 3 to 2");
 }
 
+/// Nothing of a <safety_controller> is dropped, nor are limits in <ros2_control>.
+TEST_F(UrdfFile, LimitsInOtherElements) {
+  const auto complaintOn = [&](const std::string& more) {
+    return complaintOfParts(link("a") + link("b") + joint("j", "revolute", "a", "b", limit + more));
+  };
+  const std::string safety = "<safety_controller k_velocity=\"1\" soft_lower_limit=\"-3\"";
+  EXPECT_THAT(complaintOn(safety + "/>" + safety + "/>"),
+              testing::HasSubstr("joint \"j\": a second <safety_controller>"));
+  EXPECT_THAT(complaintOn(safety + ">soft_upper_limit=\"0\"</safety_controller>"),
+              testing::HasSubstr("<safety_controller>: the text"));
+  for (const char* const control :
+       {"<command_interface name=\"position\"><param name=\"min\">-1</param></command_interface>",
+        "<state_interface name=\"position\"><param name=\"max\">1</param></state_interface>",
+        "<limits enable=\"true\"/>"})
+    EXPECT_THAT(textsOf(modelOf(link("a") + link("b") + joint("j", "revolute", "a", "b", limit) +
+                                "<ros2_control name=\"c\" type=\"system\"><joint name=\"j\">" +
+                                control + "</joint></ros2_control>")
+                            .notes),
+                testing::ElementsAre((folder_ / "r.urdf").string() +
+                                     ":5: limits of joints in <ros2_control> are not used, only "
+                                     "those of their <limit>"));
+}
+
 /// ROS's rule ignores the up-axis of Collada files.
 TEST_F(UrdfFile, UpAxesOfColladaFiles) {
   const auto collada = [](const std::string& up) {

@@ -2,6 +2,7 @@
 // boxes and findings, whatever names occur.
 #include "planner/view/view_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "planner/checker/checker.h"
 #include "planner/model/model_builder.h"
 #include "planner/view/path_samples.h"
+#include "planner/view/tessellate.h"
 #include "tests/planner/problem/problem_fixture.h"
 #include "tests/planner/view/page_reader.h"
 
@@ -373,6 +375,20 @@ TEST_F(HostileNames, AreShownAsText) {
   EXPECT_NE(replaced.find(" not UTF-8 "), std::string::npos);
   EXPECT_NE(page.find("<title>&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;\\&quot;&#39;&amp;"),
             std::string::npos);
+}
+
+/// Of a large cloud, the page shows some balls only, and says so.
+TEST(ViewPage, SaysThatACloudIsThinned) {
+  Problem problem = ownProblem("two_arms");
+  const auto body = std::find_if(
+      problem.model.bodies.begin(), problem.model.bodies.end(),
+      [](const ModelBody& b) { return !b.shapes.empty() && !b.shapes[0].parts.empty(); });
+  ASSERT_NE(body, problem.model.bodies.end());
+  std::vector<ConvexPart>& parts = body->shapes[0].parts;
+  parts.resize(view::kMostParts + 1, parts.front());
+  const PageReader page(viewPage(problem, std::nullopt));
+  EXPECT_THAT(page.json["notes"].dump(),
+              testing::HasSubstr("this page shows some of its 20001 parts, evenly chosen"));
 }
 
 }  // namespace
