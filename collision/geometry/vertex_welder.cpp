@@ -5,7 +5,14 @@
 namespace corridor {
 namespace {
 
-std::uint64_t mixed(std::uint64_t h) {  // MurmurHash3's finaliser
+/// Returns a hash of the bits of a point. The products of the three coordinates do not wait for
+/// each other; MurmurHash3's finaliser mixes them. (Without it, the low bits of the result would
+/// not depend on numbers of few digits, whose bits are high.)
+std::uint64_t hashOf(const Vec3& point) {
+  const auto bits = [&](int i) { return std::bit_cast<std::uint64_t>(point[i]); };
+  std::uint64_t h = bits(0) * 0x9e3779b97f4a7c15ULL;
+  h ^= std::rotl(bits(1) * 0xc2b2ae3d27d4eb4fULL, 21);
+  h ^= std::rotl(bits(2) * 0x165667b19e3779f9ULL, 42);
   h = (h ^ (h >> 33)) * 0xff51afd7ed558ccdULL;
   h = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53ULL;
   return h ^ (h >> 33);
@@ -19,9 +26,7 @@ VertexWelder::VertexWelder(std::size_t expectedPoints)
 }
 
 std::size_t VertexWelder::slotOf(const Vec3& point) const {
-  std::uint64_t hash = 0;
-  for (int i = 0; i < 3; ++i) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(point[i]));
-  std::size_t slot = hash & (slots_.size() - 1);
+  std::size_t slot = hashOf(point) & (slots_.size() - 1);
   while (slots_[slot] != none_ && points_[slots_[slot]] != point)
     slot = (slot + 1) & (slots_.size() - 1);
   return slot;
@@ -34,6 +39,14 @@ void VertexWelder::grow() {
 
 std::uint32_t VertexWelder::addOrFind(const Vec3& point) {
   const Vec3 p(point.x() + 0.0, point.y() + 0.0, point.z() + 0.0);
+  for (const std::uint32_t i : recent_)
+    if (i < points_.size() && points_[i] == p) return i;
+  const std::uint32_t found = addOrLookUp(p);
+  recent_[next_++ % recent_.size()] = found;
+  return found;
+}
+
+std::uint32_t VertexWelder::addOrLookUp(const Vec3& p) {
   std::size_t slot = slotOf(p);
   if (slots_[slot] != none_) return slots_[slot];
   if (2 * (points_.size() + 1) > slots_.size()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,12 +26,17 @@ class VertexWelder {
 
   /// Returns the slot that holds the point, or into which it is to be inserted.
   std::size_t slotOf(const Vec3& point) const;
+  std::uint32_t addOrLookUp(const Vec3& point);
   void grow();
 
   std::vector<Vec3> points_;
   /// A hash table with open addressing. Its size is a power of two, and at most half of its slots
   /// are used.
   std::vector<std::uint32_t> slots_;
+  /// The last points that the table gave, whatever their order. The facets of most files share a
+  /// corner or two with the facets just before them, which need no look-up.
+  std::array<std::uint32_t, 4> recent_ = {none_, none_, none_, none_};
+  std::size_t next_ = 0;
 };
 
 }  // namespace corridor

@@ -82,16 +82,26 @@ void setTerms(BoundingBox& box) {
 }  // namespace
 
 /// Computes the bounds of the points that `each` gives.
+///
+/// Rounding of the radii. The unit of length is a power of two near the largest coordinate, so no
+/// square overflows. Every computed length has fewer than 16 roundings, and differs from the real
+/// length by less than `roundedUp` adds. The same holds for the largest one. Squares below 2^-1022
+/// vanish, and with them lengths below 2^-510: `kLeast` covers them.
 /// @param each a function that calls its argument once for each point, with three values: the
 /// point, the radius of the sphere about it, and the lengths by which the box extends beyond it.
 template <class Each>
 void Body::Bounds::around(const Each& each) {
   each([&](const Vec3& p, double, const Vec3& reach) { extend(box, p, reach); });
   center = box.lower + 0.5 * (box.upper - box.lower);
+  const double largest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  const double scale = largest > 0 ? 1 / powerOfTwo(largest) : 1;
   each([&](const Vec3& p, double grow, const Vec3&) {
-    radius = std::max(radius, roundedUp(p.stableNorm() + grow));
-    sphereRadius = std::max(sphereRadius, roundedUp((p - center).stableNorm() + grow));
+    radius = std::max(radius, (p * scale).norm() + grow * scale);
+    sphereRadius = std::max(sphereRadius, ((p - center) * scale).norm() + grow * scale);
   });
+  constexpr double kLeast = 0x1p-500;
+  radius = roundedUp(radius + kLeast) / scale;
+  sphereRadius = roundedUp(sphereRadius + kLeast) / scale;
   setTerms(box);
 }
 

@@ -9,6 +9,7 @@
 
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
+#include "planner/import/mbm_excerpt.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/joint_yaml.h"
@@ -70,7 +71,8 @@ class MbmReader {
   }
 
   Json parse() {
-    const std::string text = readTextFile(file_, "a set of problems (format: mbm-scene-1)");
+    const std::string text =
+        excerptOfSet(readTextFile(file_, "a set of problems (format: mbm-scene-1)"), index_);
     std::size_t values = 0;
     std::vector<std::set<std::string>> keys;  // of the open objects
     const auto countValue = [&](int depth, Json::parse_event_t event, const Json& parsed) {

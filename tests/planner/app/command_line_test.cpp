@@ -52,6 +52,25 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
 }
 
+/// Opening a pipe that nobody reads waits for a reader. One signal ends the program.
+TEST_F(CommandLine, OutputToAPipeWithoutAReader) {
+  EXPECT_EQ(run("solve problem.yaml -o pipe", "mkfifo pipe; timeout -k 20 1 ").status, 124);
+}
+
+TEST_F(CommandLine, TooFewDescriptors) {
+  const Result result = run("benchmark problem.yaml --runs 1 --time 1 -o r",
+                            "bash -c 'ulimit -S -n 5; exec \"$0\" \"$@\"' ");
+  EXPECT_EQ(result.status, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("; raise the limit on open files (ulimit -n)\n"));
+}
+
+/// planner/app/highway_timer.cpp
+TEST_F(CommandLine, HighwayMeasuresNoTimer) {
+  const std::string bindings = run("--version", "LD_DEBUG=bindings ").err;
+  EXPECT_THAT(bindings, testing::ContainsRegex("libhwy.* to [^ ]*/corridor .*TimerResolution"));
+  EXPECT_THAT(bindings, testing::Not(testing::ContainsRegex("to [^ ]*libhwy.*TimerResolution")));
+}
+
 TEST_F(CommandLine, BadUsageIsExit2) {
   for (const char* arguments :
        {"", "sove problem.yaml", "solve", "solve problem.yaml --edges sampled",

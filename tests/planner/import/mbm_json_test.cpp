@@ -140,6 +140,25 @@ TEST_F(MbmJson, NothingIsDropped) {
             "sets/box.json: frame: the robot's root link, \"base\", is needed, not \"camera\"");
 }
 
+/// Other problems of a set are not parsed. Their texts may have brackets and quotes.
+TEST_F(MbmJson, ReadsNoOtherProblem) {
+  const std::string other = R"({"note": "\"}]{", "x": [[1, {}], "]"],
+"index": 1, "start": [1 2]})";
+  EXPECT_EQ(readProblem(set(other + ",\n" + two).string() + "#2").task.goals.size(), 1u);
+  EXPECT_EQ(readProblem(set(two + ",\n" + other).string() + "#2").task.goals.size(), 1u);
+  EXPECT_EQ(complaintOfSet(set(other + ",\n" + two + "\n"), "#1"),
+            "sets/box.json:4: is not JSON, or ends too early");
+  EXPECT_EQ(complaintOfSet(set(other + ", " + two), ""),
+            "sets/box.json: name one of its problems, as in box.json#1; there are 1, 2");
+  std::string damaged = two;
+  damaged.replace(damaged.find("\"length\": 2"), 11, "\"length\" 2 ");
+  EXPECT_EQ(complaintOfSet(set(other + ",\n" + damaged), "#2"),
+            "sets/box.json:7: is not JSON, or ends too early");
+  EXPECT_EQ(complaintOfSet(set(other + ", " + two + ", " + two), "#2"),
+            "sets/box.json: problems[1] and problems[2] have the same index, 2; give each problem "
+            "its own");
+}
+
 TEST(MbmSets, AllAreRead) {
   const auto data = dataFolder();
   if (!data) GTEST_SKIP() << "CORRIDOR_DATA is not set to the folder of the development data";
