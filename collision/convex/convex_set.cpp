@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/convex/point_columns.h"
 #include "collision/convex/polytope.h"
 #include "collision/core/rounding.h"
 
@@ -27,6 +28,13 @@ ConvexSet::ConvexSet(const Polytope& p) : points(p.vertices()), polytope(&p) {}
 ConvexSet::ConvexSet(const Polytope& p, const VertexSearch& s)
     : points(p.vertices()), polytope(&p), search(&s) {}
 
+ConvexSet::ConvexSet(const PointColumns& c, double radius)
+    : points(c.points()), ball(radius), columns(&c) {}
+
+std::uint32_t ConvexSet::farthestOfColumns(const Vec3& m) const {
+  return m.allFinite() ? columns->farthest(m) : 0;
+}
+
 std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) const {
   const bool cold = start == kCold;
   // After an overflow no bound holds, and callers test for it.
@@ -40,9 +48,11 @@ std::uint32_t ConvexSet::farthestVertex(const Vec3& m, std::uint32_t start) cons
 }
 
 void PosedSet::findBounds() const {
-  double farthest = set_.polytope ? set_.polytope->reachSquared() : 0;
+  double farthest = set_.polytope  ? set_.polytope->reachSquared()
+                    : set_.columns ? set_.columns->reachSquared()
+                                   : 0;
   double sum = farthest;
-  if (!set_.polytope)
+  if (!set_.polytope && !set_.columns)
     for (const Vec3& p : set_.points) {
       const double square = p.squaredNorm();
       farthest = std::max(farthest, square);
@@ -69,7 +79,7 @@ bool PosedSet::keepsBall() const {
 }
 
 double PosedSet::coreHighest(const Vec3& m, std::uint32_t start) const {
-  if (set_.polytope) return m.dot(set_.points[set_.farthest(m, start)]);
+  if (set_.polytope || set_.columns) return m.dot(set_.points[set_.farthest(m, start)]);
   double highest = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : set_.points) {
     const double along = m.dot(p);

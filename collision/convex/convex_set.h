@@ -9,6 +9,7 @@
 
 namespace corridor {
 
+class PointColumns;
 class Polytope;
 
 /// A structure that finds the farthest vertex of a polytope along a direction: the hierarchy of
@@ -30,8 +31,9 @@ class VertexSearch {
 /// by a disc. The viewed object must outlive the view. Lengths in metres.
 ///
 /// Queries need the point that is farthest along a direction. For a part or a triangle they test
-/// all n points, in O(n). For a `Polytope` they climb along edges, in some O(√n), or use its
-/// `VertexSearch`, if there is one. The choice changes no answer by more than the promised error.
+/// all n points, in O(n); for `PointColumns` several at once. For a `Polytope` they climb along
+/// edges, in some O(√n), or use its `VertexSearch`, if there is one. The choice changes no answer
+/// by more than the promised error.
 struct ConvexSet {
   ConvexSet(const ConvexPart& part)  // NOLINT: a part is a convex set
       : points(part.points), ball(part.radius) {
@@ -41,6 +43,8 @@ struct ConvexSet {
   ConvexSet(const Polytope& polytope);  // NOLINT: a polytope is a convex set
   /// `search` belongs to the same polytope.
   ConvexSet(const Polytope& polytope, const VertexSearch& search);
+  /// The hull of the points, swept by a sphere of radius `radius`.
+  explicit ConvexSet(const PointColumns& columns, double radius = 0);
 
   static constexpr std::uint32_t kCold = ~std::uint32_t{0};
 
@@ -50,6 +54,7 @@ struct ConvexSet {
   /// @param start  a vertex that is likely near the answer, to save time; `kCold` if no such vertex
   /// is known.
   std::uint32_t farthest(const Vec3& m, std::uint32_t start = kCold) const {
+    if (columns) return farthestOfColumns(m);
     if (polytope) return farthestVertex(m, start);
     std::uint32_t best = 0;
     double highest = m.dot(points[0]);
@@ -66,10 +71,13 @@ struct ConvexSet {
   Vec3 axis = Vec3::Zero();              ///< normal of the disc: unit, rounded
   const Polytope* polytope = nullptr;    ///< null for parts and triangles
   const VertexSearch* search = nullptr;  ///< null: by hill climbing
+  const PointColumns* columns =
+      nullptr;  ///< the same points, for SIMD kernels; null: there are none
 
  private:
   void sweepDisc();  ///< turns a capsule into a cylinder
   std::uint32_t farthestVertex(const Vec3& m, std::uint32_t start) const;
+  std::uint32_t farthestOfColumns(const Vec3& m) const;
 };
 
 /// A convex set under an affine map x ↦ M x + t, with *certified* projections. Each projection has

@@ -8,6 +8,7 @@
 
 #include "collision/convex/convex_set.h"
 #include "collision/convex/double_double.h"
+#include "collision/convex/point_columns.h"
 #include "collision/convex/polytope.h"
 #include "collision/convex/simplex.h"
 #include "collision/core/rounding.h"
@@ -108,6 +109,8 @@ class Support {
     Vec3 mean = Vec3::Zero();
     if (const Polytope* polytope = set_.set().polytope) {
       mean = polytope->center() * scale_;
+    } else if (const PointColumns* columns = set_.set().columns) {
+      mean = columns->center() * scale_;
     } else {
       for (const Vec3& p : set_.set().points) mean += p;
       mean *= scale_ / static_cast<double>(set_.set().points.size());

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/convex/enclosing_hull.h"
 #include "collision/core/rounding.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/hierarchy/check_part.h"
@@ -41,6 +42,9 @@ struct Body::Impl {
 #undef CORRIDOR_LAZY_TREE
   mutable MeshComponents components;
   mutable std::optional<BoxTree> partBoxes;
+  mutable std::once_flag hullOnce;
+  mutable std::optional<EnclosingHull> enclosing;  // of the mesh
+  mutable std::optional<ConvexSet> hull;           // a view of `enclosing`, or of the only part
 
   static std::shared_ptr<const TriangleMesh> noMesh() {
     return std::make_shared<const TriangleMesh>();
@@ -200,6 +204,15 @@ const Obb4Tree& Body::tree() const {
     impl_->built = true;
   });
   return *impl_->tree;
+}
+
+const ConvexSet* Body::hull() const {
+  std::call_once(impl_->hullOnce, [this] {
+    if (parts().size() == 1) impl_->hull.emplace(parts().front());
+    if (isMesh()) impl_->enclosing = enclosingHull(mesh());
+    if (impl_->enclosing) impl_->hull.emplace(impl_->enclosing->set());
+  });
+  return impl_->hull ? &*impl_->hull : nullptr;
 }
 
 template <BoundingVolume Volume>

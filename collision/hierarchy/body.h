@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/convex/convex_set.h"
 #include "collision/geometry/convex_part.h"
 #include "collision/geometry/mesh_components.h"
 #include "collision/geometry/triangle_mesh.h"
@@ -63,6 +64,10 @@ class Body {
   /// The boxes of the parts, in the order of `parts()`; only for a body of parts. The tree of the
   /// boxes is built at the first call.
   const BoxTree& partBoxes() const;
+  /// Returns a convex set that contains the body and is not much larger: the only part of a body of
+  /// parts, or `enclosingHull` of a mesh (convex/enclosing_hull.h). Returns nullptr if there is
+  /// none. The hull is built at the first call.
+  const ConvexSet* hull() const;
   bool treeBuilt() const;  ///< true if any tree except that of `partBoxes` has been built
   /// The largest distance of a point of the body from the frame's origin, metres, rounded up.
   double radius() const { return bounds_.radius; }

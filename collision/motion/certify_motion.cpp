@@ -60,6 +60,28 @@ class Certifier {
     return walkInOrder();
   }
 
+  /// Returns the pairs that bounds and hulls do not prove apart.
+  std::vector<std::uint32_t> pairsLeft() {
+    std::vector<bool> left(query_.pairs.size());
+    open_.push_back({0, 1, 0, list_.groups.size(), list_.mark()});
+    while (!open_.empty()) {
+      const Interval w = open_.back();
+      open_.pop_back();
+      list_.cut(w.mark);
+      const std::size_t later = list_.groups.size();
+      separateBodies(query_, w, motions_, list_, left);
+      if (list_.groups.size() == later) continue;
+      ++query_.context.counters.splits;
+      const double t = w.middle();
+      open_.push_back({t, w.t1, later, list_.groups.size(), list_.mark()});
+      open_.push_back({w.t0, t, later, list_.groups.size(), list_.mark()});
+    }
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t k = 0; k < left.size(); ++k)
+      if (left[k]) numbers.push_back(k);
+    return numbers;
+  }
+
  private:
   /// Returns the pairs that may come too close during the motion, in ascending order.
   std::span<const std::uint32_t> nearPairs() {
@@ -161,6 +183,7 @@ class Certifier {
       const bool wantBestBound = query_.certificate != nullptr;
       if (list_.isNotWalkedYet(group) && motions_.separation(pair, 0, wantBestBound).clearance > 0)
         continue;
+      if (testHulls(query_, g, motions_.relative(pair.motion), 0, list_).separated) continue;
       if (findContact(group.bodies, motions_.relative(pair.motion).X_AB, t,
                       list_.nodePairsOf(group)))
         return true;
@@ -352,6 +375,22 @@ MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pai
       certificate->point_A = contactPoint(motion, pairs, result, context.counters);
     return result;
   });
+}
+
+std::vector<std::uint32_t> pairsLeftByHulls(MotionSource& motion, std::span<const MotionPair> pairs,
+                                            const MotionOptions& options, QueryContext& context,
+                                            const BroadPhase* broadPhase) {
+  requireValid(options, pairs.size());
+  std::vector<std::uint32_t> left;
+  const MotionResult asked = answered(motion, false, [&] {
+    left =
+        Certifier(motion, {pairs, options, context, nullptr, kNoWorkLimit, broadPhase}).pairsLeft();
+    return MotionResult();
+  });
+  if (asked.verdict == MotionVerdict::free) return left;
+  left.resize(pairs.size());  // no curve, or no bound holds
+  std::iota(left.begin(), left.end(), std::uint32_t{0});
+  return left;
 }
 
 }  // namespace corridor

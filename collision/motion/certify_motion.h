@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "collision/core/query_context.h"
 #include "collision/hierarchy/body.h"
@@ -36,5 +38,16 @@ MotionResult certifyMotion(MotionSource& motion, std::span<const MotionPair> pai
                            const MotionOptions& options, QueryContext& context,
                            MotionCertificate* certificate = nullptr,
                            const BroadPhase* broadPhase = nullptr);
+
+/// Returns the numbers of the pairs that are not proved to keep their margins on the whole motion
+/// by their bounds and hulls alone, in ascending order. No tree is built or walked, so some of
+/// these pairs may keep their margins; the other pairs do, as `certifyMotion` proves it, and no
+/// body of theirs is inside a solid one. Callers can leave them out of searches for near pairs. If
+/// the motion defines no curve, all pairs are returned. The options for the first contact and the
+/// work limit are ignored.
+/// @throws std::invalid_argument as `requireValid`.
+std::vector<std::uint32_t> pairsLeftByHulls(MotionSource& motion, std::span<const MotionPair> pairs,
+                                            const MotionOptions& options, QueryContext& context,
+                                            const BroadPhase* broadPhase = nullptr);
 
 }  // namespace corridor

@@ -57,6 +57,19 @@ Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
 
 }  // namespace
 
+MovingHullsAnswer testHulls(const MotionQuery& query, std::size_t g, const RelativeMotion& relative,
+                            double margin, WorkList& list) {
+  const MotionPair& pair = query.pairs[list.groups[g].bodies];
+  if (!query.options.hulls || query.options.trees != TreeKind::obb4 ||
+      !list.isNotWalkedYet(list.groups[g]) || !haveHulls(*pair.a, *pair.b) ||
+      !relative.X_AB.isFinite() || std::isnan(relative.fixedError))
+    return {};
+  HullGuess& guess = list.hullsOf(g);
+  if (guess.met) return {};
+  query.context.counters.addTest(false);
+  return decideMovingHulls(*pair.a, *pair.b, relative, margin, guess);
+}
+
 IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval,
                               IntervalMotions& motions, WorkList& list) {
   using Rules = SplitRules;
@@ -72,6 +85,25 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
       tooFar = bodies.far && h >= Rules::kLeastHalfWidthFar;
     }
     const std::size_t motion = query.pairs[group.bodies].motion;
+    RelativeMotion relative = motions.relative(motion);
+    // A proof requires the slack, a contact does not.
+    relative.fixedError += query.options.clearanceSlack;
+    const double margin = query.options.marginOf(group.bodies);
+    if (!tooFar) {
+      const MovingHullsAnswer hulls = testHulls(query, g, relative, margin, list);
+      group.hulls = list.groups[g].hulls;
+      if (hulls.separated) {
+        record(query, interval.t0, interval.t1, group, hulls.clearance);
+        ++tested;
+        continue;
+      }
+      if (hulls.shorter && h > Rules::kLeastHalfWidthHulls) {
+        list.groups.push_back(group);
+        ++left;
+        ++tested;
+        continue;
+      }
+    }
     const bool first = h == 0.5 && motions.relative(motion).angle > Rules::kTurns;
     const SplitThresholds thresholds = first ? Rules::kFirst : Rules::kLater;
     const bool tooMuch = left >= thresholds.bodyPairsLeft && 4 * left > 3 * tested;
@@ -81,16 +113,10 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
       ++left;
       continue;
     }
-    RelativeMotion relative = motions.relative(motion);
-    // A proof requires the slack, a contact does not.
-    relative.fixedError += query.options.clearanceSlack;
     const std::size_t later = list.nodePairs.size();
-    const DescentOptions asked = {query.options.marginOf(group.bodies),
-                                  query.options.tolerance,
-                                  h <= Rules::kLeastHalfWidth,
-                                  query.workEnd,
-                                  thresholds.boxPairsLeft,
-                                  query.certificate != nullptr};
+    const DescentOptions asked = {
+        margin,        query.options.tolerance, h <= Rules::kLeastHalfWidth,
+        query.workEnd, thresholds.boxPairsLeft, query.certificate != nullptr};
     const Descent found = walkTrees(query, group, relative, asked, list);
     group.clearance = std::min(group.clearance, found.clearance);
     if (list.nodePairs.size() > later) {
@@ -105,6 +131,31 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
     return {found, group.bodies};
   }
   return {};
+}
+
+void separateBodies(const MotionQuery& query, const Interval& interval, IntervalMotions& motions,
+                    WorkList& list, std::vector<bool>& left) {
+  const double h = interval.half();
+  motions.select(interval.middle(), h);
+  for (std::size_t g = interval.begin; g < interval.end; ++g) {
+    WorkList::Group group = list.groups[g];
+    if (left[group.bodies] || testBounds(query, interval.t0, interval.t1, group, motions).separated)
+      continue;
+    const MotionPair& pair = query.pairs[group.bodies];
+    RelativeMotion relative = motions.relative(pair.motion);
+    relative.fixedError += query.options.clearanceSlack;
+    const MovingHullsAnswer hulls =
+        testHulls(query, g, relative, query.options.marginOf(group.bodies), list);
+    if (hulls.separated) continue;
+    group.hulls = list.groups[g].hulls;
+    const bool hasHulls = group.hulls != WorkList::kNone;
+    const bool isHalved = hasHulls ? hulls.apart && h > SplitRules::kLeastHalfWidthHulls
+                                   : h > SplitRules::kLeastHalfWidthBounds;
+    if (isHalved)
+      list.groups.push_back(group);
+    else
+      left[group.bodies] = true;
+  }
 }
 
 Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "collision/core/query_context.h"
 #include "collision/core/rounding.h"
@@ -66,6 +67,18 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
 /// @param far set to true if body b of one of these groups moves far
 /// (`IntervalMotions::Separation`); otherwise not changed.
 Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList& list, bool& far);
+
+/// Tests only the bounds and the hulls of whole bodies in the interval, without trees. Appends to
+/// the list the groups that shorter intervals may separate, and sets the entry in `left` of each
+/// other pair that is not separated. Pairs whose entry is set already are not tested.
+void separateBodies(const MotionQuery& query, const Interval& interval, IntervalMotions& motions,
+                    WorkList& list, std::vector<bool>& left);
+
+/// Reports whether the hulls of the group's bodies are proved apart in the interval of `relative`,
+/// and by what clearance, or whether shorter intervals may prove it. Tests only bodies with hulls
+/// whose trees have not been walked yet. @param g the number of the group in the list.
+MovingHullsAnswer testHulls(const MotionQuery& query, std::size_t g, const RelativeMotion& relative,
+                            double margin, WorkList& list);
 
 /// Returns two leaf primitives (triangles or convex parts) that touch at the pose X_AB, by their
 /// numbers in the meshes or lists; returns nothing if none are found. Tests the node pairs `start`

@@ -37,6 +37,12 @@ struct SplitRules {
   /// are left untested count no work. A joint may make any number of turns, so without this least
   /// half width the query might never reach its work limit.
   static constexpr double kLeastHalfWidthFar = 0x1p-8;
+  /// In intervals with a smaller half width, the trees of a pair are walked even if the test of its
+  /// hulls may succeed in shorter intervals.
+  static constexpr double kLeastHalfWidthHulls = 0x1p-11;
+  /// The same limit for pairs without hulls, where only their bounds are tested
+  /// (`pairsLeftByHulls`).
+  static constexpr double kLeastHalfWidthBounds = 0x1p-5;
   /// If only the verdict is requested, this many levels of halving are walked level by level. A
   /// contact anywhere is then found early.
   static constexpr int kFirstLevels = 4;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/hierarchy/node_pair4.h"
+#include "collision/motion/moving_hulls.h"
 
 namespace corridor {
 
@@ -14,6 +15,8 @@ namespace corridor {
 /// a stack: each interval appends the node pairs that it leaves. Before the next interval is
 /// tested, `cut` discards the node pairs that are no longer needed.
 struct WorkList {
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
   /// The node pairs of one pair of bodies: a range of `nodePairs`.
   struct Group {
     std::uint32_t bodies;  ///< the number of the pair of bodies in the query
@@ -23,6 +26,8 @@ struct WorkList {
     /// separated node pairs, metres; infinite if there are none. It has a meaning only if the query
     /// records a certificate.
     double clearance = HUGE_VAL;
+    /// The index of what the query knows about the hulls of these bodies; `kNone`: nothing yet.
+    std::uint32_t hulls = kNone;
   };
   /// The lengths of `nodePairs` and `groups` at some time.
   struct Mark {
@@ -31,12 +36,14 @@ struct WorkList {
 
   std::vector<NodePair4> nodePairs;
   std::vector<Group> groups;
+  std::vector<HullGuess> hulls;
 
   /// Replaces the content of the list by one group for each of these pairs of bodies: the pair of
   /// the roots of both trees. Group k is for the pair of bodies number pairs[k].
   void begin(std::span<const std::uint32_t> pairs) {
     nodePairs.assign(pairs.size(), kWholeTrees[0]);
     groups.clear();
+    hulls.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k) groups.push_back({pairs[k], k, k + 1});
   }
   Mark mark() const { return {nodePairs.size(), groups.size()}; }
@@ -47,6 +54,14 @@ struct WorkList {
   /// Returns the node pairs of a group. Valid until `nodePairs` grows.
   std::span<const NodePair4> nodePairsOf(const Group& group) const {
     return std::span(nodePairs).subspan(group.begin, group.end - group.begin);
+  }
+  /// Returns what the query knows about the hulls of group number g. Valid until the next call.
+  HullGuess& hullsOf(std::size_t g) {
+    if (groups[g].hulls == kNone) {
+      groups[g].hulls = static_cast<std::uint32_t>(hulls.size());
+      hulls.emplace_back();
+    }
+    return hulls[groups[g].hulls];
   }
   /// Reports whether the group consists of the pair of both roots, so that the trees of these
   /// bodies have not been walked yet.

@@ -188,7 +188,8 @@ double Scene::defaultTolerance(double farthest) const {
 /// metres. Stops when the visitor returns true. The visitor may lower `within`.
 template <class Visit>
 void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
-                         QueryContext& context, Visit visit) const {
+                         QueryContext& context, Visit visit,
+                         const std::vector<std::uint32_t>* only) const {
   for (const std::size_t frame : posedFrames_)
     if (frame >= X_WF.size() || !X_WF[frame].isFinite())
       throw std::invalid_argument("every frame must have a finite pose");
@@ -220,6 +221,11 @@ void Scene::forNearPairs(std::span<const Transform> X_WF, const double& within,
     }
     return visit(pair, Posed(*pair.a, X_WA), Posed(*pair.b, X_WB), context.lastPair(k));
   };
+  if (only) {
+    for (const std::uint32_t k : *only)
+      if (visitPair(k)) return;
+    return;
+  }
   if (X_WF.empty() || X_WF[0] == Transform()) {
     broadPhase_->forEach([&](const MotionPair& pair) { return worldSphere(pair.bodyB); }, within,
                          visitPair);
@@ -258,21 +264,24 @@ double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
 std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
                                                 const PairMargins& within,
                                                 const DistanceOptions& options,
-                                                QueryContext& context, TreeKind trees) const {
+                                                QueryContext& context, TreeKind trees,
+                                                const std::vector<std::uint32_t>* only,
+                                                double scale) const {
   if (within.size() != pairs_.size())
     throw std::invalid_argument("margins of pairs: one for each pair is required");
   ++context.counters.states;
   std::vector<NearPair> near;
   forNearPairs(
-      X_WF, within.largest(), context,
+      X_WF, scale * within.largest(), context,
       [&](const MotionPair& pair, const Posed<Body>& a, const Posed<Body>& b, LastPair& last) {
         const auto k = static_cast<std::size_t>(&pair - motionPairs_.data());
         DistanceOptions own = options;
-        own.upTo = within[k];
+        own.upTo = scale * within[k];
         const Distance found = distance(a, b, own, context, trees, &last);
-        if (found.distance <= within[k]) near.push_back({k, found});
+        if (found.distance <= own.upTo) near.push_back({k, found});
         return false;
-      });
+      },
+      only);
   std::sort(near.begin(), near.end(),
             [](const NearPair& x, const NearPair& y) { return x.pair < y.pair; });
   return near;
@@ -373,6 +382,12 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
       certifyPairs(motion, options, context, EdgeMethod::certified, &certificate);
   count(motion, result, context.counters);
   return result;
+}
+
+std::vector<std::uint32_t> Scene::pairsLeftByHulls(MotionSource& motion,
+                                                   const MotionOptions& options,
+                                                   QueryContext& context) const {
+  return corridor::pairsLeftByHulls(motion, motionPairs_, options, context, broadPhase_.get());
 }
 
 std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const MotionOptions& options,

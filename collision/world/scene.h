@@ -95,13 +95,21 @@ class Scene {
     std::size_t pair = 0;  ///< its index in `pairs()`
     Distance distance;     ///< with witness points in the world
   };
+  /// Returns the pairs that bounds and hulls do not prove to keep their margins on the whole
+  /// motion, in ascending order (`pairsLeftByHulls`, motion/certify_motion.h).
+  std::vector<std::uint32_t> pairsLeftByHulls(MotionSource& motion, const MotionOptions& options,
+                                              QueryContext& context) const;
   /// Returns the pairs whose measured distance is at most the length that `within` states for the
   /// pair, with these distances, in the order of `pairs()`. The errors of the distances are
   /// those of `distance` in queries/distance.h; the option `upTo` is ignored.
   /// @param within metres, one length for each pair, in the order of `pairs()`.
+  /// @param only the pairs that are tested, by number; null: all.
+  /// @param scale a factor of the lengths, at most 1.
   std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
                                     const DistanceOptions& options, QueryContext& context,
-                                    TreeKind trees = TreeKind::obb4) const;
+                                    TreeKind trees = TreeKind::obb4,
+                                    const std::vector<std::uint32_t>* only = nullptr,
+                                    double scale = 1) const;
 
   /// Decides whether the motion is free, by the given method (`certifyMotion` describes the
   /// answers). If the surfaces are proved apart at first, but a body is inside a solid body, the
@@ -144,7 +152,7 @@ class Scene {
   }
   template <class Visit>
   void forNearPairs(std::span<const Transform> X_WF, const double& within, QueryContext& context,
-                    Visit visit) const;
+                    Visit visit, const std::vector<std::uint32_t>* only = nullptr) const;
 
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;

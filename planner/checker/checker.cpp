@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -282,13 +283,27 @@ double Checker::clearance(const Configuration& q) const {
          options_.margin;
 }
 
-std::vector<Scene::NearPair> Checker::pairsWithin(const Configuration& q,
-                                                  const PairMargins& within) const {
+std::vector<Scene::NearPair> Checker::pairsWithin(const Configuration& q, const PairMargins& within,
+                                                  const std::vector<std::uint32_t>* only,
+                                                  double scale) const {
   requireStandardFloatingPoint();
   requireConfiguration(space(), q);
   Workspace& workspace = workspaceOfThread();
   return scene_.pairsWithin(workspace.poses.at(q), within, {.relative = 1e-3}, workspace.context,
-                            options_.trees);
+                            options_.trees, only, scale);
+}
+
+std::vector<std::uint32_t> Checker::pairsLeftByHulls(const Configuration& from,
+                                                     const Configuration& to,
+                                                     const PairMargins& margins) const {
+  std::vector<std::uint32_t> all(scene_.pairs().size());
+  std::iota(all.begin(), all.end(), std::uint32_t{0});
+  if (!isCovered(from) || !isCovered(to)) return all;
+  MotionOptions options = options_;
+  options.pairMargins = &margins;
+  Workspace& workspace = workspaceOfThread();
+  workspace.motion.set(from, to);
+  return scene_.pairsLeftByHulls(workspace.motion, options, workspace.context);
 }
 
 std::vector<Checker::PairNotFree> Checker::pairsNotFree(const Configuration& q) const {

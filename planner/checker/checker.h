@@ -170,7 +170,16 @@ class Checker {
   /// Returns the pairs of shapes whose distance is at most the pair's length in `within`
   /// (`Scene::pairsWithin`). The returned distances may exceed the true distances by a thousandth
   /// of their value.
-  std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within) const;
+  /// @param only, scale as for `Scene::pairsWithin`.
+  std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within,
+                                           const std::vector<std::uint32_t>* only = nullptr,
+                                           double scale = 1) const;
+  /// Returns the pairs of shapes that bounds and hulls do not prove to keep these margins on an
+  /// edge, by their numbers in `Scene::pairs()`. The others are proved to keep them
+  /// (`certifyEdge`), unless the edge leaves the configurations that are covered: then all pairs
+  /// are returned.
+  std::vector<std::uint32_t> pairsLeftByHulls(const Configuration& from, const Configuration& to,
+                                              const PairMargins& margins) const;
   /// Two bodies of the model, by index, for which a state is not free.
   struct PairNotFree {
     std::size_t a = 0, b = 0;

@@ -130,35 +130,25 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
   near_ = PairMargins(std::move(near));
 }
 
-/// Returns the pair for which distance / entry in `lengths` is the smallest. If no such ratio is
-/// below 1, returns a `Worst` with the share 1.
-ClearanceTargets::Worst ClearanceTargets::worstIn(const Configuration& q,
-                                                  const PairMargins& lengths) const {
-  Worst worst;
-  for (const Scene::NearPair& near : checker_.pairsWithin(q, lengths))
-    if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
-      worst = {share, 0, near.distance.distance, near.pair};
-  return worst;
-}
-
 /// Searches an edge for the pair and the time at which distance / entry in `lengths` is the
-/// smallest: at samples, and then around the sample with the smallest ratio.
-/// @param first a time to sample first.
+/// smallest: at samples, and then around the sample with the smallest ratio. If no ratio is below
+/// 1, returns a `Worst` with the share 1.
+/// @param pairs the pairs that are searched.
 ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
                                                   const Configuration& to,
                                                   const PairMargins& lengths,
-                                                  std::optional<double> first) const {
+                                                  const std::vector<std::uint32_t>& pairs) const {
   const ConfigurationSpace& space = checker_.space();
   const double length = space.distance(from, to), samples = std::ceil(length / kSampleLength);
   const int count = static_cast<int>(std::clamp<double>(samples, kLeastSamples, kMostSamples));
   Worst worst;
   const auto sample = [&](double t) {
     if (t < 0 || t > 1) return;
-    Worst here = worstIn(space.interpolate(from, to, t), lengths);
-    here.t = t;
-    if (here.share < worst.share) worst = here;
+    for (const Scene::NearPair& near :
+         checker_.pairsWithin(space.interpolate(from, to, t), lengths, &pairs, worst.share))
+      if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
+        worst = {share, t, near.distance.distance, near.pair};
   };
-  if (first) sample(*first);
   for (int i = 0; i <= (length > 0 ? count : 0); ++i) sample(double(i) / count);
   double step = 0.5 / count;
   for (int k = 0; k < kRefinements && worst.share < 1 && length > 0; ++k, step /= 2) {
@@ -171,11 +161,13 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
                                                                   const Configuration& to) const {
+  const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
+  if (pairs.empty()) return std::nullopt;
+  Worst worst = worstOn(from, to, targets_, pairs);
+  if (worst.share < 1) return worst;
   const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
-  if (result.time < 0) return worstOn(from, to, targets_);
-  Worst worst = worstOn(from, to, targets_, result.time);
-  if (worst.share >= 1) {
+  if (result.time >= 0) {
     worst.t = result.time;
     worst.share = kJustMissed;
   }
@@ -184,7 +176,8 @@ std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configur
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::closestOn(const Configuration& from,
                                                                    const Configuration& to) const {
-  const Worst closest = worstOn(from, to, clearances_);
+  const Worst closest =
+      worstOn(from, to, clearances_, checker_.pairsLeftByHulls(from, to, clearances_));
   if (closest.share < 1) return closest;
   return std::nullopt;
 }

@@ -44,10 +44,11 @@ class ClearanceTargets {
     std::size_t pair = 0;
   };
   /// Returns nullopt if every pair is proved to keep its target on the whole edge. Otherwise
-  /// returns the pair with the smallest share at samples of the edge. If no sampled distance is
-  /// below its target, returns the time at which the proof failed, with a share just below 1: the
-  /// target is missed by little, or only because of the tube. If the proof gives no time either,
-  /// the share is 1.
+  /// returns the pair with the smallest share at samples of the edge. (Pairs whose hulls keep the
+  /// target are not sampled; and if a sampled distance is below its target, no tree proves more.)
+  /// If no sampled distance is below its target, returns the time at which the proof failed, with a
+  /// share just below 1: the target is missed by little, or only because of the tube. If the proof
+  /// gives no time either, the share is 1.
   std::optional<Worst> missedOn(const Configuration& from, const Configuration& to) const;
   /// Returns the pair with the smallest distance at samples of an edge, whatever the targets are.
   /// Returns nullopt if no pair is closer than `clearance()` at a sample. In this result, `share`
@@ -63,8 +64,7 @@ class ClearanceTargets {
 
  private:
   Worst worstOn(const Configuration& from, const Configuration& to, const PairMargins& lengths,
-                std::optional<double> first = {}) const;
-  Worst worstIn(const Configuration& q, const PairMargins& lengths) const;
+                const std::vector<std::uint32_t>& pairs) const;
   std::vector<TangentStep> gradientsOf(const std::vector<Scene::NearPair>& near,
                                        const Configuration& q) const;
 

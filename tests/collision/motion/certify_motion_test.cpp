@@ -226,6 +226,7 @@ TEST(CertifyMotion, WorkLimitHoldsInLeavesAndProbes) {
   const Body fixed = bodyOf(many), moving = bodyOf(other);
   MotionOptions options;
   options.tolerance = 1e-7;
+  options.hulls = false;
   const RigidMotion motion =
       RigidMotion::spatial(at(Vec3(0, 0, 0.3)), turned(Vec3(0, 0, 0.4), 0.3, Vec3(1, 2, 3)), {});
   for (const TreeKind trees : {TreeKind::obb4, TreeKind::obbBinary, TreeKind::sphere})

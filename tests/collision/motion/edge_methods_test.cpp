@@ -206,6 +206,7 @@ TEST_P(EdgeMethods, MarginTubeSlackAndWorkLimit) {
   EXPECT_EQ(verdict(a, a).reason, UndecidedReason::clearance);
   options_.clearanceSlack = 0;
   EXPECT_EQ(context_.counters.undecided, 4u);
+  options_.hulls = false;
   for (const std::uint64_t limit : {3, 100'000}) {
     options_.workLimit = limit;
     context_.counters = {};

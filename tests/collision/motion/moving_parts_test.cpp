@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/convex/polytope.h"
+#include "collision/motion/moving_hulls.h"
 #include "tests/collision/convex/touching_pairs.h"
 #include "tests/support/support.h"
 
@@ -51,18 +53,42 @@ MovingPairAnswer decide(const ShapeFeature& a, const ShapeFeature& b,
   return decideMovingParts(a.part, b.part, relative, margin);
 }
 
+/// Returns the solid as a body: those with flat faces as meshes.
+Body bodyOf(const ShapeFeature& f) {
+  if (f.isTriangle || f.part.radius > 0 || f.part.points.size() < 4) return {"part", f.part};
+  const Polytope hull(f.part.points);
+  TriangleMesh mesh;
+  mesh.vertices.assign(hull.vertices().begin(), hull.vertices().end());
+  mesh.triangles.assign(hull.faces().begin(), hull.faces().end());
+  return {"mesh", std::move(mesh)};
+}
+
+/// Two bodies whose hulls are tested first.
+struct Hulls {
+  Body a, b;
+  HullGuess guess;
+  int separated = 0;
+};
+
 enum class Verdict { free, contact, undecided };
 
 Verdict certify(const ShapeFeature& a, const ShapeFeature& b, const LineAndTurn& motion, double t,
-                double h, double tolerance, double margin, std::uint64_t& decided) {
+                double h, double tolerance, double margin, std::uint64_t& decided,
+                Hulls* hulls = nullptr) {
   ++decided;
+  if (hulls &&
+      decideMovingHulls(hulls->a, hulls->b, motion.relativeMotion(t, h), margin, hulls->guess)
+          .separated) {
+    ++hulls->separated;
+    return Verdict::free;
+  }
   const MovingPairAnswer answer = decide(a, b, motion.relativeMotion(t, h), margin);
   if (answer.separated) return Verdict::free;
   if (answer.contact) return Verdict::contact;
   if (answer.stuck || answer.bound < tolerance) return Verdict::undecided;
-  const Verdict first = certify(a, b, motion, t - h / 2, h / 2, tolerance, margin, decided);
+  const Verdict first = certify(a, b, motion, t - h / 2, h / 2, tolerance, margin, decided, hulls);
   if (first != Verdict::free) return first;
-  return certify(a, b, motion, t + h / 2, h / 2, tolerance, margin, decided);
+  return certify(a, b, motion, t + h / 2, h / 2, tolerance, margin, decided, hulls);
 }
 
 using Vec3L = Eigen::Matrix<long double, 3, 1>;
@@ -90,7 +116,7 @@ TEST(MovingParts, GrazingByConstruction) {
   Touching make(test::testSeed(25));
   const int count = test::casesOf(6'000, 100'000);
   int falseFree = 0, falseContact = 0, notFree = 0, apart = 0, together = 0;
-  std::uint64_t slideIntervals = 0, slides = 0;
+  std::uint64_t slideIntervals = 0, slides = 0, hullsSeparated = 0;
   for (int n = 0; apart + together < count; ++n) {
     const Shape sa = test::kShapes[make.pick(6)], sb = test::kShapes[make.pick(6)];
     if (sa == Shape::triangle && sb == Shape::triangle) continue;
@@ -122,7 +148,12 @@ TEST(MovingParts, GrazingByConstruction) {
     if (!known) continue;
     (gap > 0 ? apart : together)++;
     std::uint64_t decided = 0;
-    const Verdict verdict = certify(a, b, motion, 0.5, 0.5, 1e-7, 0, decided);
+    const bool flat = !a.isTriangle && !b.isTriangle && bodyOf(a).hull() && bodyOf(b).hull();
+    std::optional<Hulls> hulls;
+    if (flat && n % 2) hulls.emplace(bodyOf(a), bodyOf(b));
+    const Verdict verdict =
+        certify(a, b, motion, 0.5, 0.5, 1e-7, 0, decided, hulls ? &*hulls : nullptr);
+    if (hulls) hullsSeparated += static_cast<std::uint64_t>(hulls->separated);
     if (gap < 0) {
       falseFree += verdict == Verdict::free;
     } else {
@@ -138,6 +169,7 @@ TEST(MovingParts, GrazingByConstruction) {
   EXPECT_EQ(notFree, 0);
   EXPECT_GT(apart, count / 4);
   EXPECT_GT(together, count / 10);
+  EXPECT_GT(hullsSeparated, static_cast<std::uint64_t>(count) / 10);
   std::cout << apart << " apart, " << together << " together; intervals per slide "
             << double(slideIntervals) / double(slides) << "\n";
 }
@@ -157,6 +189,71 @@ TEST(MovingParts, SlidesOnceAndKeepsMargins) {
       decideMovingParts(table.part, can.part, motion.relativeMotion(0.5, 0.25), 0.0101);
   EXPECT_TRUE(close.contact);
   EXPECT_FALSE(close.separated);
+}
+
+TriangleMesh boxMesh(const Vec3& half) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(i & 1 ? half[0] : -half[0], i & 2 ? half[1] : -half[1],
+                         i & 4 ? half[2] : -half[2]);
+  const Polytope hull(corners);
+  TriangleMesh mesh;
+  mesh.vertices = corners;
+  mesh.triangles.assign(hull.faces().begin(), hull.faces().end());
+  return mesh;
+}
+
+/// A cube slides past a ball: the gap is known in closed form. Halving is advised while it can
+/// help.
+TEST(MovingHulls, GapMarginTubeAndAdvice) {
+  const Body ball("ball", ConvexPart{{Vec3(0, 0, 0)}, 1, false}),
+      cube("cube", boxMesh(Vec3::Constant(0.5)));
+  ASSERT_TRUE(haveHulls(ball, cube));
+  LineAndTurn motion;
+  motion.start.m = Mat3::Identity();
+  motion.start.t = Vec3(-1, 0, 1.51);  // a gap of 0.01 at the middle
+  motion.delta = Vec3(2, 0, 0);
+  HullGuess guess;
+  const auto test = [&](double h, double margin, double tube) {
+    RelativeMotion relative = motion.relativeMotion(0.5, h);
+    relative.fixedError += tube;
+    HullGuess fresh;
+    const MovingHullsAnswer answer = decideMovingHulls(ball, cube, relative, margin, fresh);
+    // The answer does not depend on where the search begins.
+    const MovingHullsAnswer again = decideMovingHulls(ball, cube, relative, margin, guess);
+    EXPECT_EQ(answer.separated, again.separated);
+    return answer;
+  };
+  const MovingHullsAnswer whole = test(0.5, 0, 0);
+  EXPECT_TRUE(whole.separated) << "along z, nothing moves";
+  EXPECT_NEAR(whole.clearance, 0.01, 1e-12);
+  EXPECT_TRUE(test(0.5, 0.0099, 0).separated);
+  EXPECT_FALSE(test(0.5, 0.0101, 0).separated);
+  EXPECT_TRUE(test(0.5, 0, 0.0099).separated);
+  EXPECT_FALSE(test(0.5, 0, 0.0101).separated);
+  // A cube that turns about its own vertical axis sweeps a disc: no direction separates it at once.
+  motion.start.t = Vec3(1.75, 0, 0);
+  motion.delta = Vec3::Zero();
+  motion.angle = 1;
+  guess = {};
+  const MovingHullsAnswer turn = test(0.5, 0, 0);
+  EXPECT_FALSE(turn.separated);
+  EXPECT_TRUE(turn.shorter) << "the gap is 0.07 at the middle";
+  EXPECT_TRUE(test(0x1p-6, 0, 0).separated);
+  EXPECT_FALSE(test(0.5, 0.3, 0).shorter) << "at the middle, the margin is not kept";
+}
+
+TEST(MovingHulls, OnlyOfMeshesWithAHull) {
+  const Body cube("cube", boxMesh(Vec3::Constant(0.5))),
+      ball("ball", ConvexPart{{Vec3(0, 0, 0)}, 1, false});
+  EXPECT_TRUE(haveHulls(cube, ball));
+  EXPECT_TRUE(haveHulls(ball, cube));
+  EXPECT_FALSE(haveHulls(ball, ball)) << "their trees are one box each";
+  const Body cloud("cloud", std::vector<ConvexPart>(2, ConvexPart{{Vec3(0, 0, 0)}, 1, false}));
+  EXPECT_FALSE(haveHulls(cube, cloud));
+  TriangleMesh inside = boxMesh(Vec3::Constant(0.5));
+  for (auto& t : inside.triangles) std::swap(t[0], t[1]);
+  EXPECT_FALSE(haveHulls(ball, Body("inside out", inside)));
 }
 
 TEST(MovingParts, UndecidedIfTheTubeExceedsTheGap) {

@@ -97,6 +97,18 @@ TEST(PairMargins, AMotionIsFreeIfEachPairKeepsItsOwn) {
                          row.scene().pairs()[i].a == row.scene().motionPairs()[tooClose].bodyA;
       EXPECT_EQ(each[i].verdict != MotionVerdict::free, close) << "pair " << i;
     }
+    // Cubes are their own hulls, which decide nearly all pairs.
+    QueryContext fresh;
+    const std::vector<std::uint32_t> left = row.scene().pairsLeftByHulls(edge, options, fresh);
+    EXPECT_LE(left.size(), 2u) << "case " << n;
+    if (tooClose < row.size()) {
+      EXPECT_NE(std::find(left.begin(), left.end(), tooClose), left.end()) << "case " << n;
+    }
+    // Without hulls, more pairs are left, and that one among them.
+    options.hulls = false;
+    const std::vector<std::uint32_t> more = row.scene().pairsLeftByHulls(edge, options, fresh);
+    EXPECT_TRUE(std::includes(more.begin(), more.end(), left.begin(), left.end()));
+    EXPECT_EQ(fresh.counters.boxTests, 0u) << "no tree is walked";
   }
   EXPECT_EQ(free, 3 * count / 2);
   EXPECT_EQ(notFree, 3 * count / 2);
@@ -119,7 +131,7 @@ TEST(PairMargins, ACertificateProvesThem) {
   EXPECT_FALSE(check(certificate, margins));
   for (FreeInterval& i : certificate.free) EXPECT_GE(i.clearance, metres[i.pair]);
   // The same intervals do not prove larger margins of pairs.
-  for (double& margin : metres) margin *= 1.05;
+  for (double& margin : metres) margin *= 1.2;
   EXPECT_TRUE(check(certificate, PairMargins(metres)));
   // A certificate that claims less than the margins is refused, although the motion keeps the
   // margins.
@@ -173,6 +185,17 @@ TEST(PairMargins, FindsThePairsWithinThem) {
         metres.push_back(k == 1 ? 0 : share * distances.back());
       }
       const auto near = row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context);
+      const std::vector<std::uint32_t> only = {1, 2};
+      const auto some =
+          row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context, TreeKind::obb4, &only);
+      ASSERT_EQ(some.size(), share > 1 ? 1u : 0u);
+      if (share > 1) {
+        EXPECT_EQ(some.front().pair, 2u);
+      }
+      EXPECT_TRUE(
+          row.scene()
+              .pairsWithin(X_WF, PairMargins(metres), {}, context, TreeKind::obb4, &only, 0.9)
+              .empty());
       ASSERT_EQ(near.size(), share > 1 ? 3u : 0u);
       std::size_t before = 0;
       for (const Scene::NearPair& pair : near) {

@@ -1,0 +1,99 @@
+#include "collision/convex/point_columns.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/convex/enclosing_hull.h"
+#include "collision/convex/polytope.h"
+#include "tests/collision/queries/every_target.h"
+#include "tests/support/support.h"
+
+namespace corridor {
+namespace {
+
+using PointColumnsOnEveryTarget = test::EveryTarget;
+
+/// The kernels agree with loops over all points in the same rounding, bit for bit.
+TEST_P(PointColumnsOnEveryTarget, AreThoseOfALoop) {
+  std::mt19937_64 random(test::testSeed(91));
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  for (int n = 1; n < 40; ++n)
+    for (int k = 0; k < 20; ++k) {
+      std::vector<Vec3> points;
+      for (int i = 0; i < n; ++i)
+        points.push_back(i % 5 == 4 ? points[std::size_t(i) / 2] : vector());
+      const PointColumns columns(points);
+      const Vec3 m = k % 4 == 0 ? Vec3(Vec3::UnitX()) : vector(), v = vector();
+      const double shift = unit(random);
+      std::uint32_t farthest = 0;
+      double highest = -HUGE_VAL, least = HUGE_VAL;
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const Vec3& p = points[i];
+        const double along = p[0] * m[0] + p[1] * m[1] + p[2] * m[2];
+        const double moved = p[0] * v[0] + p[1] * v[1] + p[2] * v[2];
+        if (along > highest) highest = along, farthest = i;
+        least = std::min(least, along - std::abs(moved + shift));
+      }
+      ASSERT_EQ(columns.farthest(m), farthest) << n << " points";
+      ASSERT_EQ(columns.leastAround(m, v, shift), least) << n << " points";
+    }
+  EXPECT_TRUE(std::isnan(PointColumns({Vec3::Zero()}).leastAround(Vec3(0, NAN, 0), {1, 1, 1}, 0)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PointColumnsOnEveryTarget, testing::ValuesIn(test::simdTargets()),
+                         test::targetName);
+
+TriangleMesh meshOf(const Polytope& hull) {
+  TriangleMesh mesh;
+  mesh.vertices.assign(hull.vertices().begin(), hull.vertices().end());
+  mesh.triangles.assign(hull.faces().begin(), hull.faces().end());
+  return mesh;
+}
+
+/// The hull contains every vertex: for no direction is one farther than the hull.
+void expectContains(const EnclosingHull& hull, const TriangleMesh& mesh, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 n = Vec3(normal(random), normal(random), normal(random)).normalized();
+    double highest = -HUGE_VAL, most = -HUGE_VAL;
+    for (const Vec3& p : mesh.vertices) most = std::max(most, n.dot(p));
+    for (const Vec3& p : hull.points.points()) highest = std::max(highest, n.dot(p));
+    ASSERT_GE(highest + hull.radius, most - 1e-15);
+  }
+}
+
+TEST(EnclosingHull, ContainsSmallAndLargeMeshes) {
+  std::mt19937_64 random(test::testSeed(92));
+  std::normal_distribution<double> normal;
+  for (const int count : {8, 150, 600, 3000}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i)
+      points.push_back(Vec3(normal(random), normal(random), 2 * normal(random)).normalized());
+    const TriangleMesh mesh = meshOf(Polytope(points));
+    const auto hull = enclosingHull(mesh);
+    ASSERT_TRUE(hull) << count;
+    EXPECT_LE(hull->points.points().size(), 400u);
+    EXPECT_EQ(hull->radius > 0, count > 400) << hull->radius;
+    EXPECT_LT(hull->radius, 0.02);
+    expectContains(*hull, mesh, random);
+  }
+}
+
+TEST(EnclosingHull, OnlyOfMeshesThatItFits) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  TriangleMesh cube = meshOf(Polytope(corners));
+  ASSERT_TRUE(enclosingHull(cube));
+  EXPECT_EQ(enclosingHull(cube)->radius, 0);
+  TriangleMesh room = cube;  // seen from inside
+  for (auto& t : room.triangles) std::swap(t[0], t[1]);
+  EXPECT_FALSE(enclosingHull(room));
+  cube.vertices.emplace_back(9, 9, 9);  // in no triangle
+  EXPECT_EQ(enclosingHull(cube)->points.points().size(), 8u);
+}
+
+}  // namespace
+}  // namespace corridor
