@@ -27,20 +27,18 @@ double sumUp(double a, double b) {
 PairProver::PairProver(const PathProblem& problem, const std::vector<Configuration>& states)
     : PairProver(problem) {
   if (states.empty()) refuse("states must not be empty");
-  const std::size_t edges = std::max<std::size_t>(states.size() - 1, 1);
-  for (std::size_t e = 0; e < edges; ++e)
-    addEdge(states[e], states[std::min(e + 1, states.size() - 1)]);
+  states_ = states;
+  edges_ = std::max<std::size_t>(states.size() - 1, 1);
+  findFaults();
 }
 
 PairProver::PairProver(const PathProblem& problem, std::span<const CurvePiece> pieces)
     : PairProver(problem) {
   if (pieces.empty()) refuse("pieces must not be empty");
-  const CurvePiece* before = nullptr;
-  for (const CurvePiece& piece : pieces) {
-    requireValid(problem, piece);
-    addPiece(piece, before);
-    before = &piece;
-  }
+  for (const CurvePiece& piece : pieces) requireValid(problem, piece);
+  pieces_ = pieces;
+  edges_ = pieces.size();
+  findFaults();
 }
 
 PairProver::PairProver(const PathProblem& problem) : problem_(problem) {
@@ -76,56 +74,52 @@ void PairProver::addPair(const VerifyPair& pair) {
   pairs_.push_back({pair.a, pair.b, addChain(base, fa), addChain(base, fb), margin});
 }
 
-void PairProver::addEdge(const Configuration& from, const Configuration& to) {
-  const bool valid = isState(from) && isState(to);
-  const Configuration some = Configuration::Ones(problem_.tube.size());
-  EdgeCurve curve(*problem_.tree, problem_.space->coordinates(), valid ? from : some,
-                  valid ? to : some);
-  const char* fault = nullptr;
-  if (!valid)
-    fault = "not a valid state";
-  else if (curve.ambiguous())
-    fault = "ambiguous half turn";
-  else if (curve.jumps())
-    fault =
-        "a joint that mimics a continuous joint would jump: the two angles of the continuous joint "
-        "differ by more than half a turn";
-  addCurve(std::move(curve), Configuration::Zero(problem_.tube.size()), fault,
-           isState(from) && !valid ? to : from);
+bool PairProver::isValid(std::size_t edge) const {
+  if (!pieces_.empty()) return isPiece(pieces_[edge]);
+  return isState(states_[edge]) && isState(states_[std::min(edge + 1, states_.size() - 1)]);
 }
 
-void PairProver::addPiece(const CurvePiece& piece, const CurvePiece* before) {
-  const bool valid = isPiece(piece);
-  const CurvePiece some{Eigen::MatrixXd::Ones(problem_.tube.size(), 2), piece.error};
-  EdgeCurve curve(*problem_.tree, problem_.space->coordinates(), valid ? piece : some);
-  const char* fault = nullptr;
-  if (!valid)
-    fault = "not a valid state";
-  else if (before && isPiece(*before) && !joins(problem_.space->coordinates(), *before, piece))
-    fault = "jump";
-  else if (curve.ambiguous())
-    fault = "ambiguous half turn";
-  addCurve(std::move(curve), piece.error, fault, piece.coefficients.col(0));
+EdgeCurve PairProver::curveOf(std::size_t edge, bool valid) const {
+  const auto& coordinates = problem_.space->coordinates();
+  const Eigen::Index size = problem_.tube.size();
+  if (!pieces_.empty()) {
+    const CurvePiece some{Eigen::MatrixXd::Ones(size, 2), pieces_[edge].error};
+    return {*problem_.tree, coordinates, valid ? pieces_[edge] : some};
+  }
+  const Configuration some = Configuration::Ones(size);
+  return {*problem_.tree, coordinates, valid ? states_[edge] : some,
+          valid ? states_[std::min(edge + 1, states_.size() - 1)] : some};
 }
 
-void PairProver::addCurve(EdgeCurve curve, const Configuration& error, const char* fault,
-                          const Configuration& at) {
-  const std::size_t edge = curves_.size();
-  curves_.push_back(std::move(curve));
-  noCurve_.emplace_back();
-  if (fault) {
-    PathFinding& finding = noCurve_.back().emplace();
+const char* PairProver::faultOf(std::size_t edge, bool valid, const EdgeCurve& curve) const {
+  if (!valid) return "not a valid state";
+  if (!pieces_.empty()) {
+    if (edge > 0 && isPiece(pieces_[edge - 1]) &&
+        !joins(problem_.space->coordinates(), pieces_[edge - 1], pieces_[edge]))
+      return "jump";
+    return curve.ambiguous() ? "ambiguous half turn" : nullptr;
+  }
+  if (curve.ambiguous()) return "ambiguous half turn";
+  if (curve.jumps())
+    return "a joint that mimics a continuous joint would jump: the two angles of the continuous "
+           "joint differ by more than half a turn";
+  return nullptr;
+}
+
+void PairProver::findFaults() {
+  for (std::size_t edge = 0; edge < edges_; ++edge) {
+    const bool valid = isValid(edge);
+    const char* const fault = faultOf(edge, valid, curveOf(edge, valid));
+    if (!fault) continue;
+    PathFinding& finding = noCurve_[edge];
     finding.verdict = PathVerdict::refuted;
     finding.edge = static_cast<int>(edge);
-    finding.configuration = at;
+    finding.configuration = !pieces_.empty() ? Configuration(pieces_[edge].coefficients.col(0))
+                            : isState(states_[edge]) && !valid
+                                ? states_[std::min(edge + 1, states_.size() - 1)]
+                                : states_[edge];
     finding.reason = fault;
   }
-  Configuration& tube = tubes_.emplace_back(problem_.tube);
-  for (Eigen::Index i = 0; i < tube.size(); ++i) tube[i] = sumUp(tube[i], error[i]);
-  std::vector<PairReach> reaches;
-  const std::size_t count = edge == 0 ? allPairs() : pairs();
-  for (std::size_t p = 0; p < count; ++p) reaches.push_back(reachOf(edge, p, error));
-  reaches_.push_back(std::move(reaches));
 }
 
 bool PairProver::isPiece(const CurvePiece& piece) const {
@@ -149,13 +143,11 @@ std::size_t PairProver::addChain(std::size_t base, std::size_t frame) {
   return known->second;
 }
 
-Reach PairProver::sumOf(std::size_t edge, std::size_t pair, const Configuration& tube,
-                        const Segment& segment) const {
+Reach PairProver::sumOf(std::size_t pair, const Configuration& tube, const Segment& segment) const {
   const Pair& p = pairs_[pair];
   Reach sum;
   for (const auto& [chainIndex, body] : {std::pair{p.chainA, p.a}, std::pair{p.chainB, p.b}}) {
-    const Reach one =
-        curves_[edge].reach(chains_[chainIndex], treeOf(body).radius(), tube, segment);
+    const Reach one = curve_->reach(chains_[chainIndex], treeOf(body).radius(), tube, segment);
     sum.speed += one.speed;
     sum.bend += one.bend;
     sum.tube += one.tube;
@@ -167,14 +159,17 @@ Reach PairProver::sumOf(std::size_t edge, std::size_t pair, const Configuration&
   return sum;
 }
 
-PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair,
-                                          const Configuration& error) const {
-  PairReach reach;
-  reach.sum = sumOf(edge, pair, tubes_[edge], {});
+const PairProver::PairReach& PairProver::reachOf(std::size_t edge, std::size_t pair) {
+  enter(edge);
+  std::optional<PairReach>& known = reaches_[pair];
+  if (known) return *known;
+  PairReach& reach = known.emplace();
+  reach.sum = sumOf(pair, tube_, {});
   // Each chain has a rounding of up to 2^-50·size = 2^14·u·size. The relative placement, the boxes
   // (32u), the slabs (16u) and the displacements together add at most as much again.
   reach.rounding = 0x1p-49L * reach.sum.size;
-  if (!error.isZero(0)) reach.stray = sumOf(edge, pair, error, {}).tube;
+  if (!pieces_.empty() && !pieces_[edge].error.isZero(0))
+    reach.stray = sumOf(pair, pieces_[edge].error, {}).tube;
   reach.sharp =
       reach.rounding <= std::max<Real>(0x1p-48L * reach.sum.lengths, problem_.tolerance) &&
       reach.stray <= problem_.tolerance;
@@ -182,12 +177,12 @@ PairProver::PairReach PairProver::reachOf(std::size_t edge, std::size_t pair,
 }
 
 const Reach& PairProver::reach(const TimeInterval& interval, std::size_t pair) {
-  const Segment segment = curves_[interval.edge].segmentOf(interval.middle, interval.half);
-  if (segment.depth == 0) return reaches_[interval.edge][pair].sum;
   enter(interval.edge);
+  const Segment segment = curve_->segmentOf(interval.middle, interval.half);
+  if (segment.depth == 0) return reachOf(interval.edge, pair).sum;
   const std::size_t place = (std::size_t(1) << segment.depth) + segment.index;
   const auto [known, isNew] = segments_.try_emplace({place, pair});
-  if (isNew) known->second = sumOf(interval.edge, pair, tubes_[interval.edge], segment);
+  if (isNew) known->second = sumOf(pair, tube_, segment);
   return known->second;
 }
 
@@ -195,6 +190,11 @@ void PairProver::enter(std::size_t edge) {
   if (currentEdge_ == edge) return;
   for (auto& [time, unused] : frameStates_) time = -1;
   segments_.clear();
+  reaches_.assign(pairs_.size(), std::nullopt);
+  curve_.emplace(curveOf(edge, isValid(edge)));
+  tube_ = problem_.tube;
+  for (Eigen::Index i = 0; i < tube_.size() && !pieces_.empty(); ++i)
+    tube_[i] = sumUp(tube_[i], pieces_[edge].error[i]);
   currentEdge_ = edge;
 }
 
@@ -202,7 +202,7 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, 
   enter(edge);
   auto& [time, state] = frameStates_[chainIndex];
   if (time != t) {
-    state = curves_[edge].at(chains_[chainIndex], t);
+    state = curve_->at(chains_[chainIndex], t);
     time = t;
   }
   return state;
@@ -214,7 +214,7 @@ const FrameState& PairProver::stateOf(std::size_t edge, std::size_t chainIndex, 
 /// any direction (of the plane, for a planar translation) by the smallest number of the
 /// translation's tube. The real curve may keep a larger distance, by up to the displacement that
 /// the piece's `error` allows. This displacement is added to the result.
-Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured& m) const {
+Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured& m) {
   const RealVec between = m.gap.onB - m.gap.onA;
   const auto isFixed = [&](std::size_t chain) {
     return std::ranges::none_of(chains_[chain].path,
@@ -222,7 +222,7 @@ Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured&
   };
   std::size_t mover = pairs_[pair].chainB, other = pairs_[pair].chainA;
   if (isFixed(mover)) std::swap(mover, other);
-  const Real error = reaches_[edge][pair].stray, farthest = m.gap.upper + error;
+  const Real error = reachOf(edge, pair).stray, farthest = m.gap.upper + error;
   if (isFixed(mover) || !isFixed(other)) return farthest;
   const Frame& frame = problem_.tree->frames[chains_[mover].path.front()];
   if (frame.joint != Frame::Joint::translation || !frame.moves()) return farthest;
@@ -241,8 +241,8 @@ Real PairProver::leastInTube(std::size_t edge, std::size_t pair, const Measured&
 /// Returns why the path is refuted at these poses, or null if it is not. If the poses may be far
 /// from the path (not `sharp`), they refute nothing. The function then returns why the pair is
 /// undecided, or null.
-const char* PairProver::whyRefuted(std::size_t edge, std::size_t pair, const Measured& m) const {
-  const PairReach& reach = reaches_[edge][pair];
+const char* PairProver::whyRefuted(std::size_t edge, std::size_t pair, const Measured& m) {
+  const PairReach& reach = reachOf(edge, pair);
   const Real margin = pairs_[pair].margin;
   if (!reach.sharp) {
     const bool error = reach.stray > problem_.tolerance;
@@ -301,7 +301,7 @@ Real PairProver::secondOrder(const Reach& reach, Real half) const {
 
 PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open,
                               Real usefulBound) {
-  const PairReach& whole = reaches_[interval.edge][open.pair];
+  const PairReach& whole = reachOf(interval.edge, open.pair);
   const Reach& bounds = reach(interval, open.pair);
   const Real motionBound = bounds.speed * interval.half, pad = bounds.tube + whole.rounding;
   const Real margin = pairs_[open.pair].margin;
@@ -353,17 +353,17 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
 Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
                                 Real usefulBound) {
   const Reach& bounds = reach(interval, pair);
-  const Configuration& tube = tubes_[interval.edge];
+  const Configuration& tube = tube_;
   const Real half = interval.half;
   PairMotion motion;
   motion.half = half;
   motion.motionBound = bounds.speed * half;
   motion.tube = bounds.tube;
-  motion.rounding = reaches_[interval.edge][pair].rounding;
+  motion.rounding = reachOf(interval.edge, pair).rounding;
   Perturbation a, b;
   motion.secondOrder = secondOrder(bounds, half);
   if (tubeMatters(bounds)) {
-    const EdgeCurve& curve = curves_[interval.edge];
+    const EdgeCurve& curve = *curve_;
     a = curve.perturbationAt(chains_[pairs_[pair].chainA], interval.middle, tube);
     b = curve.perturbationAt(chains_[pairs_[pair].chainB], interval.middle, tube);
   }
@@ -419,9 +419,10 @@ std::optional<PairAnswer> PairProver::insideAtStart(std::size_t pair) {
 }
 
 PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
-                                const PairAnswer& answer) const {
+                                const PairAnswer& answer) {
   const Pair& p = pairs_[pair];
-  const EdgeCurve& curve = curves_[interval.edge];
+  enter(interval.edge);
+  const EdgeCurve& curve = *curve_;
   PathFinding finding;
   finding.verdict = *answer.verdict;
   finding.edge = static_cast<int>(interval.edge);

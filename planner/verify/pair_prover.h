@@ -53,9 +53,10 @@ struct PairAnswer {
 /// shorter and shorter intervals. No answer depends on earlier queries. For verifyCurve(), the
 /// pieces of the curve take the place of the edges.
 ///
-/// The object stores all data that depend only on the problem (box trees, kinematic chains) or only
-/// on an edge (its curve and reach weights). It also caches the states of the frames at the latest
-/// time.
+/// The object stores all data that depend only on the problem (box trees, kinematic chains), and
+/// what depends on the current edge alone (its curve, reach weights, the states of the frames at
+/// the latest time). When another edge is asked for, that is computed again: so memory does not
+/// grow with the number of edges. The states or pieces must outlive the object.
 class PairProver {
  public:
   /// @throws std::invalid_argument as verifyPath() does.
@@ -63,21 +64,25 @@ class PairProver {
   /// @throws std::invalid_argument as verifyCurve() does.
   PairProver(const PathProblem& problem, std::span<const CurvePiece> pieces);
 
-  std::size_t edges() const { return curves_.size(); }
+  std::size_t edges() const { return edges_; }
   /// Returns the configuration at t of an edge or piece, rounded.
-  Configuration configuration(std::size_t edge, double t) const {
-    return curves_[edge].configuration(t);
+  Configuration configuration(std::size_t edge, double t) {
+    enter(edge);
+    return curve_->configuration(t);
   }
   /// Returns the number of `PathProblem::pairs`. They have the numbers from 0 to pairs() − 1.
   std::size_t pairs() const { return problem_.pairs.size(); }
   /// Returns the number of all pairs. Those of `PathProblem::heldPairs` have the numbers from
   /// pairs() on, and may only be passed to the functions below with the first edge.
   std::size_t allPairs() const { return pairs_.size(); }
-  /// Returns a finding `refuted` if the edge defines no curve, else nullopt. An edge defines no
+  /// Returns a finding `refuted` if the edge defines no curve, else null. An edge defines no
   /// curve if an end is not a state, a half turn is ambiguous, or a joint jumps; a piece also if it
   /// does not begin where the piece before it ends. Such an edge must not be passed to the
   /// functions below.
-  const std::optional<PathFinding>& noCurve(std::size_t edge) const { return noCurve_[edge]; }
+  const PathFinding* noCurve(std::size_t edge) const {
+    const auto found = noCurve_.find(edge);
+    return found == noCurve_.end() ? nullptr : &found->second;
+  }
 
   /// Decides a pair of bodies in an interval.
   /// @param usefulBound a bound of the clearance above this value is of no use.
@@ -89,8 +94,7 @@ class PairProver {
   std::optional<PairAnswer> insideAtStart(std::size_t pair);
 
   /// Returns the finding that reports an answer. @pre the answer has a verdict.
-  PathFinding finding(const TimeInterval& interval, std::size_t pair,
-                      const PairAnswer& answer) const;
+  PathFinding finding(const TimeInterval& interval, std::size_t pair, const PairAnswer& answer);
 
   /// Returns the bounds of the pair's motion that decide() uses in the interval.
   const Reach& reach(const TimeInterval& interval, std::size_t pair);
@@ -119,19 +123,21 @@ class PairProver {
   explicit PairProver(const PathProblem& problem);
   bool isState(const Configuration& state) const;
   bool isPiece(const CurvePiece& piece) const;
-  void addEdge(const Configuration& from, const Configuration& to);
-  void addPiece(const CurvePiece& piece, const CurvePiece* before);
-  /// Adds the curve of an edge, its tube and its reach weights. `error` is that of a CurvePiece.
-  /// @param fault why the edge defines no curve; empty if it does.
-  void addCurve(EdgeCurve curve, const Configuration& error, const char* fault,
-                const Configuration& at);
+  /// Returns whether the ends of an edge, or the numbers of a piece, are valid.
+  bool isValid(std::size_t edge) const;
+  /// Returns the curve of an edge or piece; if it is not valid, any curve.
+  EdgeCurve curveOf(std::size_t edge, bool valid) const;
+  /// Returns why the edge defines no curve; null if it does.
+  const char* faultOf(std::size_t edge, bool valid, const EdgeCurve& curve) const;
+  /// Fills `noCurve_`.
+  void findFaults();
   void addPair(const VerifyPair& pair);
   std::size_t addChain(std::size_t base, std::size_t frame);
   const BodyTree& treeOf(std::size_t body) const { return trees_[treeOf_[body]]; }
-  PairReach reachOf(std::size_t edge, std::size_t pair, const Configuration& error) const;
-  Reach sumOf(std::size_t edge, std::size_t pair, const Configuration& tube,
-              const Segment& segment) const;
-  /// Makes `edge` the current edge, and forgets the cached data of any other edge.
+  const PairReach& reachOf(std::size_t edge, std::size_t pair);
+  /// Returns the sum of the reach of both bodies, for the current edge.
+  Reach sumOf(std::size_t pair, const Configuration& tube, const Segment& segment) const;
+  /// Makes `edge` the current edge, and forgets the data of any other edge.
   void enter(std::size_t edge);
   const FrameState& stateOf(std::size_t edge, std::size_t chainIndex, Real t);
   /// Places the bodies at the middle of the interval, in `distance_` and in the result.
@@ -145,8 +151,8 @@ class PairProver {
   /// Returns a lower bound of the clearance by boundBySlabs().
   Real boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
                       Real usefulBound);
-  Real leastInTube(std::size_t edge, std::size_t pair, const Measured& m) const;
-  const char* whyRefuted(std::size_t edge, std::size_t pair, const Measured& m) const;
+  Real leastInTube(std::size_t edge, std::size_t pair, const Measured& m);
+  const char* whyRefuted(std::size_t edge, std::size_t pair, const Measured& m);
   const char* whyStuck(const PairReach& reach, std::size_t pair, const Measured& m) const;
   std::optional<Vec3> pointInside(std::size_t solid, std::size_t other,
                                   const Placement& X_SolidOther) const;
@@ -160,10 +166,16 @@ class PairProver {
   std::vector<KinematicChain> chains_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // key: (base, frame)
   std::vector<Pair> pairs_;  // those of problem_.pairs, then those of problem_.heldPairs
-  std::vector<EdgeCurve> curves_;
-  std::vector<Configuration> tubes_;  // one per edge: the problem's tube, and the piece's error
-  std::vector<std::optional<PathFinding>> noCurve_;  // one per edge
-  std::vector<std::vector<PairReach>> reaches_;      // [edge][pair]; heldPairs: only [0][pair]
+  // Of the two, the one that is verified; the other is empty.
+  std::span<const Configuration> states_;
+  std::span<const CurvePiece> pieces_;
+  std::size_t edges_ = 0;
+  std::map<std::size_t, PathFinding> noCurve_;  // key: edge
+  // Of currentEdge_: its curve, the problem's tube with the piece's error, and, once they are
+  // needed, the motion bounds of the pairs.
+  std::optional<EdgeCurve> curve_;
+  Configuration tube_;
+  std::vector<std::optional<PairReach>> reaches_;
   // Bounds in segments of currentEdge_; the key is {2^depth + index of the segment, pair}.
   std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;
   // For each chain, a time of currentEdge_ and the state of the frame at this time.
