@@ -160,6 +160,19 @@ class Camera(unittest.TestCase):
                 problem.near_robot(points, START, wrong)
 
 
+    def test_isolated_points(self):
+        """Against all distances. Far and equal points, and cells with negative numbers, are among them."""
+        points = np.vstack([self.points(5, 300), [[50, -50, 3], [50, -50, 3], [-1e6, 0, 0]]])
+        apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+        for distance, neighbours in ((0.05, 1), (0.2, 1), (0.2, 4), (3.0, 200)):
+            wanted = (apart <= distance).sum(axis=1) - 1 < neighbours
+            np.testing.assert_array_equal(shapes.isolated(points, distance, neighbours), wanted)
+        self.assertEqual(shapes.isolated(np.zeros((0, 3)), 1).shape, (0,))
+        for distance, neighbours in ((0, 1), (np.inf, 1), (1e-12, 1), (0.1, 0), (0.1, 1.5)):
+            with self.assertRaises((ValueError, TypeError)):
+                shapes.isolated(points, distance, neighbours)
+
+
 class Arguments(unittest.TestCase):
     def test_names_of_files_where_problems_are_meant(self):
         solution = corridor.solve(ROOT / "problems/two_arms", seed=1)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import _array, _file, _flag, _number
+from ._arguments import _array, _file, _flag, _number, _whole
 
 
 @dataclass(frozen=True)
@@ -118,6 +118,16 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike, solid: bool = False, pose: A
 def points(points: ArrayLike, radius: float, pose: ArrayLike | None = None) -> Shape:
     """A cloud: balls of a radius about points, (N, 3), such as a camera's."""
     return _shape("points", _array("points", points), _number("radius", radius), pose=pose)
+
+
+def isolated(points: ArrayLike, distance: float, neighbours: int = 1) -> NDArray[np.bool_]:
+    """For each point, whether fewer than `neighbours` other points are at most `distance` (m) away.
+
+    A camera's stray points are mostly so: `points[~isolated(points, 0.05)]` are the others. What is left out is no
+    obstacle: a thin wire may be among it.
+    """
+    number = _number("distance", distance)
+    return _native.isolated(_array("points", points), number, _whole("neighbours", neighbours, 1))
 
 
 def mesh_file(
