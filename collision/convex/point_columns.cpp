@@ -30,8 +30,11 @@ hn::Vec<D> dot(D d, const Columns& c, std::size_t i, const double* m) {
   return hn::Add(hn::Add(term(0), term(1)), term(2));
 }
 
+/// The columns are filled up to a multiple of eight numbers, so vectors have no more.
+using Tag = hn::CappedTag<double, 8>;
+
 std::uint32_t farthestPoint(const double* columns, std::size_t stride, const double* m) {
-  const hn::ScalableTag<double> d;
+  const Tag d;
   const Columns c{columns, stride};
   auto highest = dot(d, c, 0, m);
   auto number = hn::Iota(d, 0), best = number;
@@ -43,7 +46,7 @@ std::uint32_t farthestPoint(const double* columns, std::size_t stride, const dou
     highest = hn::IfThenElse(higher, along, highest);
     best = hn::IfThenElse(higher, number, best);
   }
-  double heights[HWY_MAX_BYTES / sizeof(double)], numbers[HWY_MAX_BYTES / sizeof(double)];
+  double heights[8], numbers[8];
   hn::StoreU(highest, d, heights);
   hn::StoreU(best, d, numbers);
   std::size_t lane = 0;
@@ -55,7 +58,7 @@ std::uint32_t farthestPoint(const double* columns, std::size_t stride, const dou
 
 double leastAround(const double* columns, std::size_t stride, const double* m, const double* v,
                    double shift) {
-  const hn::ScalableTag<double> d;
+  const Tag d;
   const Columns c{columns, stride};
   const auto at = [&](std::size_t i) {
     return hn::Sub(dot(d, c, i, m), hn::Abs(hn::Add(dot(d, c, i, v), hn::Set(d, shift))));

@@ -39,6 +39,8 @@ class SignalBlocker {
 /// signal by which users end programs ends it then, also if the program handles that signal:
 /// nothing is written yet.
 int openToWrite(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_fifo(file, none)) return ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
   struct Handled {
     int signal;
     struct sigaction action;
@@ -46,7 +48,9 @@ int openToWrite(const std::filesystem::path& file) {
   std::vector<Handled> handled;
   for (const int signal : kUserSignals) {
     struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN ||
+        action.sa_handler == SIG_DFL)
+      continue;
     handled.push_back({signal, action});
     ::signal(signal, SIG_DFL);
   }

@@ -104,8 +104,18 @@ class ObjReader {
     int words = 0;
     const auto next = [&] { return ++words, nextWord(); };
     mesh_.vertices.push_back(parseVertex(next, cursor_, faults_));
-    if (words == 3)
-      requireNumbers([&] { return nextWord(); }, "a weight or a colour", cursor_, faults_);
+    if (words != 3) return;
+    int more = 0;
+    double weight = 1;
+    const auto nextOfMore = [&] {
+      const std::string_view word = nextWord();
+      double number = 0;
+      if (!word.empty() && ++more == 1 && !parseCoordinate(word, number, true)) weight = number;
+      return word;
+    };
+    requireNumbers(nextOfMore, "a weight or a colour", cursor_, faults_);
+    if (more == 1 && weight != 1)
+      addNote(notes_, "vertices have weights (the fourth number), which are not used");
   }
 
   void readFace() {

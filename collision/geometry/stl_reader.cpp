@@ -167,14 +167,14 @@ class AsciiStl {
 }  // namespace
 
 ReadMesh readStl(std::string_view bytes, MeshFaults& faults) {
-  if (const std::string_view text = withoutByteOrderMark(bytes);
-      sameWord(TextCursor(text.substr(0, headerSize)).word(), "solid"))
-    bytes = text;
   // The size of the file is tested first, because many binary files also begin with "solid".
   const bool hasHeader = bytes.size() >= headerSize;
   const std::uint64_t promised =
       hasHeader ? headerSize + std::uint64_t{facetSize} * littleEndian32(&bytes[80]) : 0;
   if (hasHeader && promised == bytes.size()) return readBinary(bytes, faults);
+  if (const std::string_view text = withoutByteOrderMark(bytes);
+      sameWord(TextCursor(text.substr(0, headerSize)).word(), "solid"))
+    bytes = text;
   // Text has no zero byte. A binary file has a zero byte in its number of triangles, unless that
   // number is 2^24 or more.
   const std::string_view start = bytes.substr(0, headerSize);

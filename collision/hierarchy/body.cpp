@@ -43,8 +43,8 @@ struct Body::Impl {
   mutable MeshComponents components;
   mutable std::optional<BoxTree> partBoxes;
   mutable std::once_flag hullOnce;
-  mutable std::optional<EnclosingHull> enclosing;  // of the mesh
-  mutable std::optional<ConvexSet> hull;           // a view of `enclosing`, or of the only part
+  mutable std::optional<PointColumns> enclosing;  // of the mesh
+  mutable std::optional<ConvexSet> hull;          // a view of `enclosing`, or of the only part
 
   static std::shared_ptr<const TriangleMesh> noMesh() {
     return std::make_shared<const TriangleMesh>();
@@ -104,8 +104,8 @@ void Body::Bounds::around(const Each& each) {
     sphereRadius = std::max(sphereRadius, ((p - center) * scale).norm() + grow * scale);
   });
   constexpr double kLeast = 0x1p-500;
-  radius = roundedUp(radius + kLeast) / scale;
-  sphereRadius = roundedUp(sphereRadius + kLeast) / scale;
+  radius = roundedUp(radius + kLeast) / scale + kTiny;  // the quotient may be subnormal
+  sphereRadius = roundedUp(sphereRadius + kLeast) / scale + kTiny;
   setTerms(box);
 }
 
@@ -210,7 +210,7 @@ const ConvexSet* Body::hull() const {
   std::call_once(impl_->hullOnce, [this] {
     if (parts().size() == 1) impl_->hull.emplace(parts().front());
     if (isMesh()) impl_->enclosing = enclosingHull(mesh());
-    if (impl_->enclosing) impl_->hull.emplace(impl_->enclosing->set());
+    if (impl_->enclosing) impl_->hull.emplace(*impl_->enclosing);
   });
   return impl_->hull ? &*impl_->hull : nullptr;
 }

@@ -64,7 +64,7 @@ class Body {
   /// The boxes of the parts, in the order of `parts()`; only for a body of parts. The tree of the
   /// boxes is built at the first call.
   const BoxTree& partBoxes() const;
-  /// Returns a convex set that contains the body and is not much larger: the only part of a body of
+  /// Returns a convex set that contains the body and mostly fits it: the only part of a body of
   /// parts, or `enclosingHull` of a mesh (convex/enclosing_hull.h). Returns nullptr if there is
   /// none. The hull is built at the first call.
   const ConvexSet* hull() const;

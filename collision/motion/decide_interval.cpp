@@ -89,6 +89,12 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
     // A proof requires the slack, a contact does not.
     relative.fixedError += query.options.clearanceSlack;
     const double margin = query.options.marginOf(group.bodies);
+    // `descend` keeps the work limit only where trees are walked.
+    if (query.context.counters.work() >= query.workEnd) {
+      for (std::size_t k = g; k < interval.end; ++k)
+        list.groups.push_back(WorkList::Group(list.groups[k]));
+      return {{.kind = Descent::Kind::workLimit}, group.bodies};
+    }
     if (!tooFar) {
       const MovingHullsAnswer hulls = testHulls(query, g, relative, margin, list);
       group.hulls = list.groups[g].hulls;
@@ -120,7 +126,8 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
     const Descent found = walkTrees(query, group, relative, asked, list);
     group.clearance = std::min(group.clearance, found.clearance);
     if (list.nodePairs.size() > later) {
-      list.groups.push_back({group.bodies, later, list.nodePairs.size(), group.clearance});
+      list.groups.push_back(
+          {group.bodies, later, list.nodePairs.size(), group.clearance, group.hulls});
       ++left;
     } else if (found.kind == Descent::Kind::done) {
       record(query, interval.t0, interval.t1, group, HUGE_VAL);

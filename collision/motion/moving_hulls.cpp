@@ -13,7 +13,8 @@ constexpr double kFewHalvings = 16;
 }  // namespace
 
 bool haveHulls(const Body& a, const Body& b) {
-  return (a.isMesh() || b.isMesh()) && a.hull() && b.hull();
+  const auto mayHave = [](const Body& body) { return body.isMesh() || body.parts().size() == 1; };
+  return (a.isMesh() || b.isMesh()) && mayHave(a) && mayHave(b) && a.hull() && b.hull();
 }
 
 MovingHullsAnswer decideMovingHulls(const Body& a, const Body& b, const RelativeMotion& relative,

@@ -28,9 +28,9 @@
 ///
 /// Rounding. The bound of `PosedSet` is linear in the length of the vector, which is at most 1 + α
 /// with α = `angle`. Other errors are added:
-/// * The cross product and the sum are off by 4u(1 + α), which adds 8u of the reach.
-/// * n·linear adds 4u of `speed`.
-/// * The sums add 3u of all terms.
+/// * The cross product and the sum are off by 4u(1 + α), which adds 8u(1 + α) of the reach.
+/// * n·linear adds 4u of `speed`, and the sum with it 2u of `speed`.
+/// * The sums add 3u of all terms, and 2u(1 + α) of the reach.
 /// * n × angular in the remainder is off by 4uα.
 /// * What the bound of `PosedSet` has more for the vector's length than for |n| ≤ 1: 20uα of the
 ///   reach, and 6uα of |t|.

@@ -47,7 +47,7 @@ class SetScanner {
     });
     problem.end = at_;
     problems_.push_back(problem);
-    return isSound && !problem.index.empty() &&
+    return isSound && !problem.index.empty() && problem.index.size() < 19 &&
            problem.index.find_first_not_of("0123456789") == problem.index.npos;
   }
 

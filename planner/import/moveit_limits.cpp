@@ -187,6 +187,23 @@ void requireOneSet(const YamlValue& document, const YamlValue& parameters, const
   if (const YamlValue* const outer = valueIn(document, "robot_description_planning")) fault(*outer);
 }
 
+/// Adds a note on limits elsewhere in the document, which are not read: maps `joint_limits` at
+/// other places, and dotted names of parameters of ROS 2.
+/// @param read the map whose `joint_limits` are read. @param path that of `value`.
+void noteOtherLimits(const YamlValue& value, const YamlValue& read, const std::string& path,
+                     const std::string& file, std::vector<Note>& notes) {
+  for (const YamlValue::Entry& entry : value.entries) {
+    const std::string own = path.empty() ? entry.key : path + "." + entry.key;
+    const bool isDotted = entry.key.find("joint_limits.") != std::string::npos;
+    if (isDotted || (entry.key == "joint_limits" && &value != &read))
+      notes.push_back({file + ":" + std::to_string(entry.value.line) +
+                           ": the limits of joints in " + quotedWord(own) + " are not read",
+                       NoteWeight::motion});
+    else if (entry.key != "joint_limits")
+      noteOtherLimits(entry.value, read, own, file, notes);
+  }
+}
+
 }  // namespace
 
 void readMoveitLimits(const std::filesystem::path& file, const Model& model, bool isComplete,
@@ -202,6 +219,8 @@ void readMoveitLimits(const std::filesystem::path& file, const Model& model, boo
   std::vector<Note> beside;
   requireOneSet(document, parameters, inner, source, beside);
   if (isComplete) addAll(beside, notes);
+  if (isComplete && faults.size() == 0)
+    noteOtherLimits(document, inner ? *inner : parameters, "", file.string(), notes);
   const YamlValue& read = inner ? *inner : parameters;
   readFile(YamlMap(read, inner ? "robot_description_planning" : "", &kFile, source), model,
            isComplete, spec, notes);

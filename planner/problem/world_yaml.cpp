@@ -191,11 +191,20 @@ Padding readPadding(const YamlMap& file, const Model& model) {
   if (!value) return padding;
   const YamlMap map(*value, "padding", &problemKeys().at("padding"), file.source());
   const BodyNames names(model);
+  const auto noteNoShapes = [&](const std::string& link) {
+    file.source().notes.push_back(
+        {"padding of " + quotedWord(link) + " is not used, because this link has no shapes",
+         NoteWeight::coverage});
+  };
   if (const YamlValue* bodies = map.find("bodies")) {
     const YamlMap own(*bodies, "padding.bodies", nullptr, file.source());
     for (const YamlValue::Entry* entry : own.entries()) {
-      const auto body =
-          names.find(entry->key, [&](const std::string& text) { own.fault(entry->key, text); });
+      bool isWrong = false;
+      const auto body = names.find(entry->key, [&](const std::string& text) {
+        own.fault(entry->key, text);
+        isWrong = true;
+      });
+      if (!body && !isWrong) noteNoShapes(entry->key);
       if (const auto metres = own.number(entry->key, Range::NotNegative); metres && body)
         padding.bodies[*body] = *metres;
     }
@@ -206,8 +215,10 @@ Padding readPadding(const YamlMap& file, const Model& model) {
   if (pairs->kind != YamlValue::Kind::List)
     map.fault("pairs", "a list of pairs is needed, each with its padding in metres, " + example);
   for (const YamlValue& item : pairs->items) {
+    bool isWrong = false;
     const auto fault = [&](const std::string& text) {
       file.source().fault(item.line, "padding.pairs: " + text);
+      isWrong = true;
     };
     if (item.kind != YamlValue::Kind::List || item.items.size() != 3) {
       fault("two bodies and a padding in metres are needed, " + example);
@@ -215,6 +226,7 @@ Padding readPadding(const YamlMap& file, const Model& model) {
     }
     const auto a = names.find(item.items[0].text, fault), b = names.find(item.items[1].text, fault);
     double metres = 0;
+    if (!isWrong && !(a && b)) noteNoShapes(item.items[a ? 1 : 0].text);
     const std::string wrong = parseNumber(item.items[2].text, Range::NotNegative, metres);
     if (!wrong.empty())
       fault(wrong);

@@ -80,6 +80,7 @@ class PairReader {
       allRead &= pair.has_value();
       if (pair) enabled.insert(pairOf(names_.links()[pair->first], names_.links()[pair->second]));
     });
+    noteNotEnabled(enabled);
     if (allRead)
       disableDefaults(enabled);
     else if (const Element* first = root_.FirstChildElement("disable_default_collisions"))
@@ -101,6 +102,20 @@ class PairReader {
     const auto a = names_.findLink(element, "link1", "", unknown_);
     const auto b = names_.findLink(element, "link2", "", unknown_);
     return a && b ? std::optional(std::pair{*a, *b}) : std::nullopt;
+  }
+
+  /// Adds a note on the pairs that are not tested although <enable_collisions> names them: adjacent
+  /// links, and those of a <disable_collisions>.
+  void noteNotEnabled(const std::set<Pair>& enabled) {
+    std::vector<std::string> names;
+    for (const AllowedPair& pair : model_.allowed)
+      if (enabled.contains(pairOf(pair.a, pair.b)))
+        names.push_back(pair.a + " ~ " + pair.b + " (" + pair.reason + ")");
+    if (!names.empty())
+      model_.notes.push_back(
+          {file_.at(root_.FirstChildElement("enable_collisions")->GetLineNum(),
+                    "not tested, although <enable_collisions> names them: " + joinedFirst(names)),
+           NoteWeight::coverage});
   }
 
   bool hasMisspeltEnable() const {

@@ -296,18 +296,36 @@ UrdfJoint readJoint(XmlFile& file, Element& element, const UrdfRules& rules,
   return joint;
 }
 
-/// Returns the first parameter of <ros2_control> that limits a joint, or nullptr:
-/// `<param name="min">-1</param>` in the interface of a joint.
-const Element* controllersLimit(const Element& control) {
-  for (const Element* joint = control.FirstChildElement("joint"); joint;
-       joint = joint->NextSiblingElement("joint"))
-    for (const Element* part = joint->FirstChildElement(); part;
-         part = part->NextSiblingElement()) {
-      if (part->Name() == std::string_view("limits")) return part;
-      for (const Element* param = part->FirstChildElement("param"); param;
-           param = param->NextSiblingElement("param"))
-        if (param->Attribute("name", "min") || param->Attribute("name", "max")) return param;
-    }
+/// What <ros2_control> says of joints that is not used: the first element of each kind.
+struct ControlOfJoints {
+  const Element* limits = nullptr;  ///< <limits>, or <param name="min"> of an interface
+  const Element* mimic = nullptr;   ///< <param name="mimic">
+
+  void find(const Element& control) {
+    for (const Element* joint = control.FirstChildElement("joint"); joint;
+         joint = joint->NextSiblingElement("joint"))
+      for (const Element* part = joint->FirstChildElement(); part;
+           part = part->NextSiblingElement()) {
+        if (!limits && part->Name() == std::string_view("limits")) limits = part;
+        if (!mimic && part->Attribute("name", "mimic")) mimic = part;
+        for (const Element* param = part->FirstChildElement("param"); param && !limits;
+             param = param->NextSiblingElement("param"))
+          if (param->Attribute("name", "min") || param->Attribute("name", "max")) limits = param;
+      }
+  }
+};
+
+/// Returns the first element whose name or file name says that it makes a joint mimic another, as
+/// plugins of Gazebo do; or nullptr.
+const Element* mimicPlugin(const Element& element) {
+  for (const Element* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    const char* const file = child->Attribute("filename");
+    if (lowered(child->Name()).find("mimic") != std::string::npos ||
+        (file && lowered(file).find("mimic") != std::string::npos))
+      return child;
+    if (const Element* const inner = mimicPlugin(*child)) return inner;
+  }
   return nullptr;
 }
 
@@ -417,7 +435,7 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
   if (isXacro(file, root) || isSrdf(file, root) || isTooLarge(file, rules, root)) return outline;
   Lines links, joints;
   std::vector<std::string> visible, soft;  // names for the notes
-  const Element* control = nullptr;
+  ControlOfJoints control;
   outline.name = file.text(root, "name", "").value_or("");
   file.checkAttributes(root, {"name", "version"}, owned("robot", outline.name), notes);
   const std::string version = root.Attribute("version") ? root.Attribute("version") : "";
@@ -436,8 +454,10 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
     else if (kind == "joint")
       outline.complete &= addUnique(readJoint(file, *element, rules, soft, notes), "joint",
                                     outline.joints, joints, file);
-    else if (kind == "ros2_control" && !control)
-      control = controllersLimit(*element);
+    else if (kind == "ros2_control")
+      control.find(*element);
+    else if (kind == "gazebo" && !control.mimic)
+      control.mimic = mimicPlugin(*element);
   }
   const auto lineOf = [&](const std::vector<std::string>& names, const Lines& lines) {
     const auto first = lines.find(names.front());  // an element without a name has no entry
@@ -457,8 +477,13 @@ UrdfOutline readUrdfOutline(XmlFile& file, const UrdfRules& rules, MeshStore& me
                                  "in robot.yaml applies them): " +
                                  joinedFirst(soft)),
                      NoteWeight::motion});
-  if (control)
-    notes.push_back({file.at(control->GetLineNum(),
+  if (control.mimic)
+    notes.push_back({file.at(control.mimic->GetLineNum(),
+                             "a joint mimics another in <ros2_control> or <gazebo>, which is not "
+                             "used: only <mimic> in its <joint> is"),
+                     NoteWeight::motion});
+  if (control.limits)
+    notes.push_back({file.at(control.limits->GetLineNum(),
                              "limits of joints in <ros2_control> are not used, only those of "
                              "their <limit>"),
                      NoteWeight::motion});

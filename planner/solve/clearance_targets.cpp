@@ -134,10 +134,12 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
 /// smallest: at samples, and then around the sample with the smallest ratio. If no ratio is below
 /// 1, returns a `Worst` with the share 1.
 /// @param pairs the pairs that are searched.
+/// @param first a time to sample first.
 ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
                                                   const Configuration& to,
                                                   const PairMargins& lengths,
-                                                  const std::vector<std::uint32_t>& pairs) const {
+                                                  const std::vector<std::uint32_t>& pairs,
+                                                  std::optional<double> first) const {
   const ConfigurationSpace& space = checker_.space();
   const double length = space.distance(from, to), samples = std::ceil(length / kSampleLength);
   const int count = static_cast<int>(std::clamp<double>(samples, kLeastSamples, kMostSamples));
@@ -149,6 +151,7 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
       if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
         worst = {share, t, near.distance.distance, near.pair};
   };
+  if (first) sample(*first);
   for (int i = 0; i <= (length > 0 ? count : 0); ++i) sample(double(i) / count);
   double step = 0.5 / count;
   for (int k = 0; k < kRefinements && worst.share < 1 && length > 0; ++k, step /= 2) {
@@ -162,12 +165,15 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
                                                                   const Configuration& to) const {
   const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
-  if (pairs.empty()) return std::nullopt;
+  if (pairs.empty() && !checker_.scene().pairs().empty()) return std::nullopt;
   Worst worst = worstOn(from, to, targets_, pairs);
   if (worst.share < 1) return worst;
   const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
-  if (result.time >= 0) {
+  if (result.time < 0) return worst;
+  // The miss is between the samples, or it is small.
+  worst = worstOn(from, to, targets_, pairs, result.time);
+  if (worst.share >= 1) {
     worst.t = result.time;
     worst.share = kJustMissed;
   }

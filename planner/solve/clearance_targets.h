@@ -64,7 +64,7 @@ class ClearanceTargets {
 
  private:
   Worst worstOn(const Configuration& from, const Configuration& to, const PairMargins& lengths,
-                const std::vector<std::uint32_t>& pairs) const;
+                const std::vector<std::uint32_t>& pairs, std::optional<double> first = {}) const;
   std::vector<TangentStep> gradientsOf(const std::vector<Scene::NearPair>& near,
                                        const Configuration& q) const;
 

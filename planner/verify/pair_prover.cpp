@@ -62,6 +62,7 @@ PairProver::PairProver(const PathProblem& problem) : problem_(problem) {
           refuse("a pair of heldPairs has a joint that moves between its bodies");
   }
   frameStates_.resize(chains_.size());
+  reaches_.resize(pairs_.size(), {SIZE_MAX, {}});
 }
 
 void PairProver::addPair(const VerifyPair& pair) {
@@ -161,9 +162,10 @@ Reach PairProver::sumOf(std::size_t pair, const Configuration& tube, const Segme
 
 const PairProver::PairReach& PairProver::reachOf(std::size_t edge, std::size_t pair) {
   enter(edge);
-  std::optional<PairReach>& known = reaches_[pair];
-  if (known) return *known;
-  PairReach& reach = known.emplace();
+  auto& [ofEdge, reach] = reaches_[pair];
+  if (ofEdge == edge) return reach;
+  ofEdge = edge;
+  reach = {};
   reach.sum = sumOf(pair, tube_, {});
   // Each chain has a rounding of up to 2^-50·size = 2^14·u·size. The relative placement, the boxes
   // (32u), the slabs (16u) and the displacements together add at most as much again.
@@ -190,7 +192,6 @@ void PairProver::enter(std::size_t edge) {
   if (currentEdge_ == edge) return;
   for (auto& [time, unused] : frameStates_) time = -1;
   segments_.clear();
-  reaches_.assign(pairs_.size(), std::nullopt);
   curve_.emplace(curveOf(edge, isValid(edge)));
   tube_ = problem_.tube;
   for (Eigen::Index i = 0; i < tube_.size() && !pieces_.empty(); ++i)

@@ -175,7 +175,7 @@ class PairProver {
   // needed, the motion bounds of the pairs.
   std::optional<EdgeCurve> curve_;
   Configuration tube_;
-  std::vector<std::optional<PairReach>> reaches_;
+  std::vector<std::pair<std::size_t, PairReach>> reaches_;  // of each pair, with its edge
   // Bounds in segments of currentEdge_; the key is {2^depth + index of the segment, pair}.
   std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;
   // For each chain, a time of currentEdge_ and the state of the frame at this time.

@@ -1,6 +1,7 @@
 #include "collision/geometry/mesh_file.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -62,6 +63,23 @@ TEST_F(ReadMeshFile, EveryFormatTakesWindowsLineEnds) {
   expectTetrahedron(read("a.obj", windows(objTetrahedron)));
   expectTetrahedron(read("a.stl", windows(asciiStlTetrahedron())));
   expectTetrahedron(read("a.ply", windows(asciiPlyTetrahedron)));
+}
+
+TEST_F(ReadMeshFile, WeightsOfVertices) {
+  const std::string more = "v 1 0 0 1\nv 0 1 0 0.5 0.5 0.5\nf 1 2 3\n";
+  EXPECT_EQ(
+      read("a.obj", "v 0 0 2 2\n" + more).notes,
+      std::vector<std::string>{"vertices have weights (the fourth number), which are not used"});
+  EXPECT_TRUE(read("a.obj", "v 0 0 2 1\n" + more).notes.empty());
+}
+
+TEST_F(ReadMeshFile, BinaryStlWhoseHeaderBeginsLikeText) {
+  std::string binary = "\xEF\xBB\xBFsolid";
+  binary.resize(84 + 50);
+  binary[80] = 1;
+  const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  std::memcpy(binary.data() + 96, corners, sizeof corners);
+  EXPECT_EQ(read("a.stl", binary).mesh.triangles.size(), 1u);
 }
 
 TEST_F(ReadMeshFile, StlWithAByteOrderMarkAndAnEmptyLine) {

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/convex/convex_distance.h"
+#include "collision/convex/polytope.h"
+#include "collision/core/rigid_pose.h"
 #include "collision/queries/interference.h"
 #include "tests/collision/motion/bodies.h"
 #include "tests/support/support.h"
@@ -214,6 +217,65 @@ TEST(CertifyMotion, ClearanceOverTwiceTheToleranceIsFreeBesideLargeTriangles) {
       EXPECT_EQ(certify(moving, fixed, still, options, context).verdict, MotionVerdict::free)
           << large << ", " << i;
     }
+}
+
+/// Two convex meshes, whose distance is known from their exact hulls.
+TEST(CertifyMotion, HullsKeepTheDistance) {
+  std::mt19937_64 random(test::testSeed(71));
+  std::normal_distribution<double> normal;
+  const auto round = [&](int count) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i)
+      points.push_back(Vec3(normal(random), normal(random), normal(random)).normalized());
+    return Polytope(points);
+  };
+  const auto meshOf = [](const Polytope& p) {
+    TriangleMesh mesh;
+    mesh.vertices.assign(p.vertices().begin(), p.vertices().end());
+    mesh.triangles.assign(p.faces().begin(), p.faces().end());
+    return mesh;
+  };
+  const Polytope a = round(150), b = round(400);
+  const Body fixed = bodyOf(meshOf(a)), moving = bodyOf(meshOf(b));
+  ASSERT_TRUE(fixed.hull() && moving.hull());
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 side = Vec3(normal(random), normal(random), normal(random)).normalized();
+    const double angle = normal(random);
+    const RigidPose pose = turned((2.001 + 0.02 * (n % 10)) * side, angle, Vec3(1, 2, 3));
+    const Transform X{rotationMatrix(pose.q), pose.p};
+    const double distance = convexDistance({a, {}}, {b, X}).distance;
+    ASSERT_GT(distance, 0);
+    MotionOptions options;
+    options.tolerance = 1e-9;
+    for (const double share : {1 - 1e-5, 1 + 1e-5}) {
+      options.margin = share * distance;
+      QueryContext context;
+      EXPECT_EQ(
+          certify(moving, fixed, RigidMotion::spatial(pose, pose, {}), options, context).verdict ==
+              MotionVerdict::free,
+          share < 1);
+    }
+  }
+}
+
+/// Hulls that decide many pairs count as work.
+TEST(CertifyMotion, WorkLimitHoldsForHulls) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < 50; ++i)
+    bodies.push_back(bodyOf(box(Vec3(0.52, 0.1 * i, 0), Vec3(1, 0.1 * i + 0.2, 1))));
+  const Body cube = bodyOf(box(Vec3(-0.5, 0, 0), Vec3(0.5, 5, 1)));
+  std::vector<MotionPair> pairs;
+  for (const Body& body : bodies) pairs.push_back({&body, &cube, 0});
+  MotionOptions options;
+  options.tolerance = 1e-9;
+  options.workLimit = 10;
+  QueryContext context;
+  RigidEdge edge(RigidMotion::spatial(at(Vec3::Zero()), turned(Vec3::Zero(), 1e-3, {0, 0, 1}), {}));
+  const MotionResult result = certifyMotion(edge, pairs, options, context);
+  EXPECT_EQ(result.reason, UndecidedReason::workLimit);
+  EXPECT_LE(context.counters.work(), 10u + 16 + 256);
+  options.workLimit = kNoWorkLimit;
+  EXPECT_EQ(certifyMotion(edge, pairs, options, context).verdict, MotionVerdict::free);
 }
 
 /// Tests of leaf pairs, and tests for contact at single poses, must count as work, too. The largest

@@ -109,6 +109,9 @@ TEST(PairMargins, AMotionIsFreeIfEachPairKeepsItsOwn) {
     const std::vector<std::uint32_t> more = row.scene().pairsLeftByHulls(edge, options, fresh);
     EXPECT_TRUE(std::includes(more.begin(), more.end(), left.begin(), left.end()));
     EXPECT_EQ(fresh.counters.boxTests, 0u) << "no tree is walked";
+    options.hulls = true;
+    options.clearanceSlack = 0.5;  // more than every gap
+    EXPECT_EQ(row.scene().pairsLeftByHulls(edge, options, fresh).size(), row.size());
   }
   EXPECT_EQ(free, 3 * count / 2);
   EXPECT_EQ(notFree, 3 * count / 2);

@@ -148,6 +148,10 @@ TEST_F(MbmJson, ReadsNoOtherProblem) {
   EXPECT_EQ(readProblem(set(two + ",\n" + other).string() + "#2").task.goals.size(), 1u);
   EXPECT_EQ(complaintOfSet(set(other + ",\n" + two + "\n"), "#1"),
             "sets/box.json:4: is not JSON, or ends too early");
+  const std::string large = R"({"index": 18446744073709551616})";
+  EXPECT_EQ(complaintOfSet(set(large + ", " + two), "#18446744073709551616"),
+            "sets/box.json: has no problem #18446744073709551616; there are "
+            "1.8446744073709552e+19, 2");
   EXPECT_EQ(complaintOfSet(set(other + ", " + two), ""),
             "sets/box.json: name one of its problems, as in box.json#1; there are 1, 2");
   std::string damaged = two;

@@ -221,6 +221,29 @@ TEST_F(LimitsTest, FactorsBesideOtherLimits) {
                          "because it does not stand beside joint_limits"));
 }
 
+/// Limits at other places of the file are not dropped in silence.
+TEST_F(LimitsTest, LimitsElsewhere) {
+  const std::string limits = "joint_limits: {pan: {has_velocity_limits: true, max_velocity: 2}}}";
+  const auto notesOn = [&](const std::string& text) {
+    notes_.clear();
+    write("joint_limits.yaml", text);
+    EXPECT_EQ(specOf("  file: joint_limits.yaml\n").named.at("pan").velocity, 2);
+    return textsOf(notes_);
+  };
+  EXPECT_THAT(
+      notesOn("robot_description_planning: {" + limits + "\narm: {" + limits + "\n"),
+      testing::ElementsAre(testing::HasSubstr(
+          "joint_limits.yaml:2: the limits of joints in \"arm.joint_limits\" are not read")));
+  EXPECT_THAT(
+      notesOn("/**:\n  ros__parameters:\n    robot_description_planning: {" + limits +
+              "\n    robot_description_planning.joint_limits.pan.max_velocity: 0.5\n"),
+      testing::ElementsAre(testing::HasSubstr("joint_limits.yaml:4: the limits of joints")));
+  EXPECT_THAT(
+      notesOn("move_group: {ros__parameters: {" + limits +
+              "}\nns: {move_group: {ros__parameters: {" + limits + "}}\n"),
+      testing::ElementsAre(testing::HasSubstr("joint_limits.yaml:2: the limits of joints")));
+}
+
 TEST_F(LimitsTest, PositionsWithoutTheirFlag) {
   const auto notesOn = [&](const std::string& keys) {
     notes_.clear();

@@ -68,6 +68,23 @@ TEST_F(NeverInContactPairs, OtherReasonsStay) {
   EXPECT_EQ(skipped(p, "upper", "finger"), "allow");
 }
 
+TEST_F(NeverInContactPairs, PaddingOfALinkWithoutShapes) {
+  for (const char* padding :
+       {"padding: {bodies: {hollow: 0.1}}\n", "padding: {pairs: [[finger, hollow, 0.1]]}\n"}) {
+    write("hollow.urdf",
+          "<robot name='h'><link name='hollow'/><link name='finger'><collision><geometry><sphere "
+          "radius='1'/></geometry></collision></link><joint name='j' type='prismatic'><parent "
+          "link='hollow'/><child link='finger'/><axis xyz='1 0 0'/><limit lower='0' upper='1' "
+          "effort='1' velocity='1'/></joint></robot>");
+    const Problem p = read(
+        "format: corridor-problem-1\nrobot: hollow.urdf\nstart: {j: 0}\ngoal: "
+        "{j: 1}\n" +
+        std::string(padding));
+    EXPECT_THAT(textsOf(p.source.notes),
+                Contains("padding of \"hollow\" is not used, because this link has no shapes"));
+  }
+}
+
 /// A padding of a pair that is not tested has a note, unless a proof covers it.
 TEST_F(NeverInContactPairs, PaddingsThatAreNotKept) {
   const auto notes = [&](const std::string& pair, const std::string& more = "") {

@@ -83,6 +83,19 @@ TEST_F(SrdfFile, States) {
                   file + ":8: state \"there\" names no group; its values are taken as they are"));
 }
 
+TEST_F(SrdfFile, EnabledPairsThatAreNotTested) {
+  const AllowedPair adjacent = model_.allowed.front();
+  EXPECT_EQ(complaintOfSrdf("<disable_collisions link1=\"l2\" link2=\"r2\" reason=\"Never\"/>"
+                            "<enable_collisions link1=\"r2\" link2=\"l2\"/>"
+                            "<enable_collisions link1=\"" +
+                            adjacent.a + "\" link2=\"" + adjacent.b + "\"/>"),
+            "no complaint");
+  EXPECT_THAT(textsOf(model_.notes),
+              testing::Contains(testing::HasSubstr(
+                  "not tested, although <enable_collisions> names them: " + adjacent.a + " ~ " +
+                  adjacent.b + " (adjacent), l2 ~ r2 (SRDF: Never)")));
+}
+
 TEST_F(SrdfFile, Pairs) {
   const std::size_t adjacent = model_.allowed.size();
   EXPECT_EQ(complaintOfSrdf(R"(

@@ -396,6 +396,19 @@ TEST_F(UrdfFile, LimitsInOtherElements) {
                                      "those of their <limit>"));
 }
 
+TEST_F(UrdfFile, MimicsInOtherElements) {
+  for (const char* const other :
+       {"<ros2_control name=\"c\" type=\"system\"><joint name=\"j\"><param name=\"mimic\">k"
+        "</param></joint></ros2_control>",
+        "<gazebo><plugin name=\"m\" filename=\"libgazebo_mimic_joint_plugin.so\"/></gazebo>",
+        "<gazebo><plugin name=\"m\"><mimicJoint>j</mimicJoint></plugin></gazebo>"})
+    EXPECT_THAT(
+        textsOf(
+            modelOf(link("a") + link("b") + joint("j", "revolute", "a", "b", limit) + other).notes),
+        testing::ElementsAre(testing::HasSubstr(
+            ":5: a joint mimics another in <ros2_control> or <gazebo>, which is not used")));
+}
+
 /// ROS's rule ignores the up-axis of Collada files.
 TEST_F(UrdfFile, UpAxesOfColladaFiles) {
   const auto collada = [](const std::string& up) {

@@ -106,6 +106,24 @@ TEST(ClearanceTargets, FindsTheWorstPlaceAndMovesAwayFromIt) {
   EXPECT_FALSE(targets.movedApart(from));
 }
 
+/// An edge of any length is sampled at most 33 times at first: the place where the proof failed is
+/// sampled, too.
+TEST(ClearanceTargets, FindsTheWorstPlaceOfALongEdge) {
+  const Problem problem = ballAmong({{0.7, 5, 0}, {0.7, -0.81, 0}});  // the second is 0.01 m away
+  const Checker checker(problem);
+  for (const double half : {3.0, 30.0, 100.0}) {
+    const Configuration from = poseOf(Rigid::SE2, -half, 0), to = poseOf(Rigid::SE2, half, 0);
+    const ClearanceTargets targets(checker, 0.1, from, to);
+    for (const auto& worst : {targets.missedOn(from, to), targets.closestOn(from, to)}) {
+      if (!worst) continue;  // `closestOn` only samples
+      EXPECT_EQ(worst->pair, 1u) << half;
+      EXPECT_LT(worst->distance, 0.1) << half;
+      EXPECT_GT(worst->distance, 0) << half;
+    }
+    EXPECT_TRUE(targets.missedOn(from, to)) << half;
+  }
+}
+
 TEST(KeepClearance, RoundsAPostAtADistance) {
   const std::vector<Vec3> posts{{0, -0.8001, 0}};
   Mover mover(posts, {poseOf(Rigid::SE2, -3, 0), poseOf(Rigid::SE2, 3, 0)}, 0.1);
