@@ -7,7 +7,7 @@ namespace corridor {
 namespace {
 
 /// Halves are left untested if the motion exceeds the gap by at most this factor: four levels of
-/// halving make up for it. (Measured: with 4 or 64, panda's edges take 5 % longer.)
+/// halving make up for it.
 constexpr double kFewHalvings = 16;
 
 }  // namespace
