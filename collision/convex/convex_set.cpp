@@ -28,8 +28,7 @@ ConvexSet::ConvexSet(const Polytope& p) : points(p.vertices()), polytope(&p) {}
 ConvexSet::ConvexSet(const Polytope& p, const VertexSearch& s)
     : points(p.vertices()), polytope(&p), search(&s) {}
 
-ConvexSet::ConvexSet(const PointColumns& c, double radius)
-    : points(c.points()), ball(radius), columns(&c) {}
+ConvexSet::ConvexSet(const PointColumns& c) : points(c.points()), columns(&c) {}
 
 std::uint32_t ConvexSet::farthestOfColumns(const Vec3& m) const {
   return m.allFinite() ? columns->farthest(m) : 0;

@@ -43,8 +43,7 @@ struct ConvexSet {
   ConvexSet(const Polytope& polytope);  // NOLINT: a polytope is a convex set
   /// `search` belongs to the same polytope.
   ConvexSet(const Polytope& polytope, const VertexSearch& search);
-  /// The hull of the points, swept by a sphere of radius `radius`.
-  explicit ConvexSet(const PointColumns& columns, double radius = 0);
+  explicit ConvexSet(const PointColumns& columns);  ///< the hull of the points
 
   static constexpr std::uint32_t kCold = ~std::uint32_t{0};
 
@@ -66,13 +65,12 @@ struct ConvexSet {
   }
 
   std::span<const Vec3> points;
-  double ball = 0;                       ///< radius of the sphere; 0: none
-  double disc = 0;                       ///< radius of the disc; 0: none
-  Vec3 axis = Vec3::Zero();              ///< normal of the disc: unit, rounded
-  const Polytope* polytope = nullptr;    ///< null for parts and triangles
-  const VertexSearch* search = nullptr;  ///< null: by hill climbing
-  const PointColumns* columns =
-      nullptr;  ///< the same points, for SIMD kernels; null: there are none
+  double ball = 0;                        ///< radius of the sphere; 0: none
+  double disc = 0;                        ///< radius of the disc; 0: none
+  Vec3 axis = Vec3::Zero();               ///< normal of the disc: unit, rounded
+  const Polytope* polytope = nullptr;     ///< null for parts and triangles
+  const VertexSearch* search = nullptr;   ///< null: by hill climbing
+  const PointColumns* columns = nullptr;  ///< `points` for SIMD kernels; null: not in columns
 
  private:
   void sweepDisc();  ///< turns a capsule into a cylinder

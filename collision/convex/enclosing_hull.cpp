@@ -11,7 +11,7 @@
 namespace corridor {
 namespace {
 
-constexpr std::size_t kMostVertices = 640;
+constexpr std::size_t kMostVertices = 800;
 constexpr std::size_t kSampledTriangles = 256;
 constexpr double kDeepest = 0.35;  // mean depth of the triangles, as a part of the mesh's radius
 

@@ -7,7 +7,7 @@
 
 namespace corridor {
 
-/// Returns the distinct vertices that the triangles of a mesh use, if they are at most 640 and
+/// Returns the distinct vertices that the triangles of a mesh use, if they are at most 800 and
 /// their hull fits the mesh; else nullopt. (Of more vertices, some would have to be left out.
 /// Finding those takes longer than building the mesh's tree: measured.)
 ///

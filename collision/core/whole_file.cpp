@@ -35,9 +35,8 @@ class SignalBlocker {
   sigset_t before_{};
 };
 
-/// Opens a device or a pipe for writing. A pipe that nobody reads makes the program wait here. A
-/// signal by which users end programs ends it then, also if the program handles that signal:
-/// nothing is written yet.
+/// Opens a device or a pipe for writing. Opening a pipe waits for a reader. During this wait, the
+/// signals by which users end programs have their default action, since nothing is written yet.
 int openToWrite(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_fifo(file, none)) return ::open(file.c_str(), O_WRONLY | O_CLOEXEC);

@@ -183,7 +183,7 @@ class Certifier {
       const bool wantBestBound = query_.certificate != nullptr;
       if (list_.isNotWalkedYet(group) && motions_.separation(pair, 0, wantBestBound).clearance > 0)
         continue;
-      if (testHulls(query_, g, motions_.relative(pair.motion), 0, list_).separated) continue;
+      if (testHulls(query_, g, 0, 0, motions_, list_).separated) continue;
       if (findContact(group.bodies, motions_.relative(pair.motion).X_AB, t,
                       list_.nodePairsOf(group)))
         return true;

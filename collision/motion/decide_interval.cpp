@@ -57,15 +57,16 @@ Descent walkTrees(const MotionQuery& query, const WorkList::Group& group,
 
 }  // namespace
 
-MovingHullsAnswer testHulls(const MotionQuery& query, std::size_t g, const RelativeMotion& relative,
-                            double margin, WorkList& list) {
+MovingHullsAnswer testHulls(const MotionQuery& query, std::size_t g, double margin, double slack,
+                            IntervalMotions& motions, WorkList& list) {
   const MotionPair& pair = query.pairs[list.groups[g].bodies];
   if (!query.options.hulls || query.options.trees != TreeKind::obb4 ||
-      !list.isNotWalkedYet(list.groups[g]) || !haveHulls(*pair.a, *pair.b) ||
-      !relative.X_AB.isFinite() || std::isnan(relative.fixedError))
+      !list.isNotWalkedYet(list.groups[g]) || !haveHulls(*pair.a, *pair.b))
     return {};
+  RelativeMotion relative = motions.relative(pair.motion);
+  relative.fixedError += slack;
   HullGuess& guess = list.hullsOf(g);
-  if (guess.met) return {};
+  if (guess.met || !relative.X_AB.isFinite() || std::isnan(relative.fixedError)) return {};
   query.context.counters.addTest(false);
   return decideMovingHulls(*pair.a, *pair.b, relative, margin, guess);
 }
@@ -85,10 +86,9 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
       tooFar = bodies.far && h >= Rules::kLeastHalfWidthFar;
     }
     const std::size_t motion = query.pairs[group.bodies].motion;
-    RelativeMotion relative = motions.relative(motion);
     // A proof requires the slack, a contact does not.
-    relative.fixedError += query.options.clearanceSlack;
-    const double margin = query.options.marginOf(group.bodies);
+    const double margin = query.options.marginOf(group.bodies),
+                 slack = query.options.clearanceSlack;
     // `descend` keeps the work limit only where trees are walked.
     if (query.context.counters.work() >= query.workEnd) {
       for (std::size_t k = g; k < interval.end; ++k)
@@ -96,7 +96,7 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
       return {{.kind = Descent::Kind::workLimit}, group.bodies};
     }
     if (!tooFar) {
-      const MovingHullsAnswer hulls = testHulls(query, g, relative, margin, list);
+      const MovingHullsAnswer hulls = testHulls(query, g, margin, slack, motions, list);
       group.hulls = list.groups[g].hulls;
       if (hulls.separated) {
         record(query, interval.t0, interval.t1, group, hulls.clearance);
@@ -119,6 +119,8 @@ IntervalAnswer decideInterval(const MotionQuery& query, const Interval& interval
       ++left;
       continue;
     }
+    RelativeMotion relative = motions.relative(motion);
+    relative.fixedError += slack;
     const std::size_t later = list.nodePairs.size();
     const DescentOptions asked = {
         margin,        query.options.tolerance, h <= Rules::kLeastHalfWidth,
@@ -148,11 +150,8 @@ void separateBodies(const MotionQuery& query, const Interval& interval, Interval
     WorkList::Group group = list.groups[g];
     if (left[group.bodies] || testBounds(query, interval.t0, interval.t1, group, motions).separated)
       continue;
-    const MotionPair& pair = query.pairs[group.bodies];
-    RelativeMotion relative = motions.relative(pair.motion);
-    relative.fixedError += query.options.clearanceSlack;
-    const MovingHullsAnswer hulls =
-        testHulls(query, g, relative, query.options.marginOf(group.bodies), list);
+    const MovingHullsAnswer hulls = testHulls(query, g, query.options.marginOf(group.bodies),
+                                              query.options.clearanceSlack, motions, list);
     if (hulls.separated) continue;
     group.hulls = list.groups[g].hulls;
     const bool hasHulls = group.hulls != WorkList::kNone;

@@ -74,11 +74,13 @@ Interval testBodies(const MotionQuery& query, IntervalMotions& motions, WorkList
 void separateBodies(const MotionQuery& query, const Interval& interval, IntervalMotions& motions,
                     WorkList& list, std::vector<bool>& left);
 
-/// Reports whether the hulls of the group's bodies are proved apart in the interval of `relative`,
-/// and by what clearance, or whether shorter intervals may prove it. Tests only bodies with hulls
-/// whose trees have not been walked yet. @param g the number of the group in the list.
-MovingHullsAnswer testHulls(const MotionQuery& query, std::size_t g, const RelativeMotion& relative,
-                            double margin, WorkList& list);
+/// Tests the hulls of a group's bodies in the selected interval of `motions`. Returns an empty
+/// answer for bodies without hulls, and for bodies whose trees have been walked, or whose hulls
+/// met.
+/// @param g the number of the group in the list.
+/// @param slack metres, added to the errors of the motion.
+MovingHullsAnswer testHulls(const MotionQuery& query, std::size_t g, double margin, double slack,
+                            IntervalMotions& motions, WorkList& list);
 
 /// Returns two leaf primitives (triangles or convex parts) that touch at the pose X_AB, by their
 /// numbers in the meshes or lists; returns nothing if none are found. Tests the node pairs `start`

@@ -264,24 +264,23 @@ double Scene::clearance(std::span<const Transform> X_WF, QueryContext& context,
 std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
                                                 const PairMargins& within,
                                                 const DistanceOptions& options,
-                                                QueryContext& context, TreeKind trees,
-                                                const std::vector<std::uint32_t>* only,
-                                                double scale) const {
+                                                QueryContext& context, const NearSearch& search,
+                                                TreeKind trees) const {
   if (within.size() != pairs_.size())
     throw std::invalid_argument("margins of pairs: one for each pair is required");
   ++context.counters.states;
   std::vector<NearPair> near;
   forNearPairs(
-      X_WF, scale * within.largest(), context,
+      X_WF, search.scale * within.largest(), context,
       [&](const MotionPair& pair, const Posed<Body>& a, const Posed<Body>& b, LastPair& last) {
         const auto k = static_cast<std::size_t>(&pair - motionPairs_.data());
         DistanceOptions own = options;
-        own.upTo = scale * within[k];
+        own.upTo = search.scale * within[k];
         const Distance found = distance(a, b, own, context, trees, &last);
         if (found.distance <= own.upTo) near.push_back({k, found});
         return false;
       },
-      only);
+      search.pairs);
   std::sort(near.begin(), near.end(),
             [](const NearPair& x, const NearPair& y) { return x.pair < y.pair; });
   return near;

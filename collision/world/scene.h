@@ -90,26 +90,28 @@ class Scene {
   double clearance(std::span<const Transform> X_WF, QueryContext& context,
                    TreeKind trees = TreeKind::obb4) const;
 
+  /// A part of the search for near pairs.
+  struct NearSearch {
+    const std::vector<std::uint32_t>* pairs = nullptr;  ///< by number; null: all pairs
+    double scale = 1;  ///< a factor of the lengths within which pairs are near, at most 1
+  };
   /// A pair of bodies that are near each other.
   struct NearPair {
     std::size_t pair = 0;  ///< its index in `pairs()`
     Distance distance;     ///< with witness points in the world
   };
-  /// Returns the pairs that bounds and hulls do not prove to keep their margins on the whole
-  /// motion, in ascending order (`pairsLeftByHulls`, motion/certify_motion.h).
-  std::vector<std::uint32_t> pairsLeftByHulls(MotionSource& motion, const MotionOptions& options,
-                                              QueryContext& context) const;
   /// Returns the pairs whose measured distance is at most the length that `within` states for the
   /// pair, with these distances, in the order of `pairs()`. The errors of the distances are
   /// those of `distance` in queries/distance.h; the option `upTo` is ignored.
   /// @param within metres, one length for each pair, in the order of `pairs()`.
-  /// @param only the pairs that are tested, by number; null: all.
-  /// @param scale a factor of the lengths, at most 1.
   std::vector<NearPair> pairsWithin(std::span<const Transform> X_WF, const PairMargins& within,
                                     const DistanceOptions& options, QueryContext& context,
-                                    TreeKind trees = TreeKind::obb4,
-                                    const std::vector<std::uint32_t>* only = nullptr,
-                                    double scale = 1) const;
+                                    const NearSearch& search,
+                                    TreeKind trees = TreeKind::obb4) const;
+  /// Returns the pairs that bounds and hulls do not prove to keep their margins on the whole
+  /// motion, in ascending order (`pairsLeftByHulls`, motion/certify_motion.h).
+  std::vector<std::uint32_t> pairsLeftByHulls(MotionSource& motion, const MotionOptions& options,
+                                              QueryContext& context) const;
 
   /// Decides whether the motion is free, by the given method (`certifyMotion` describes the
   /// answers). If the surfaces are proved apart at first, but a body is inside a solid body, the

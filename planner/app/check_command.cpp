@@ -115,8 +115,7 @@ void printReport(const CheckArguments& a, const Problem& problem, const LeftOut&
                                        {key, rows}})
               << '\n';
   if (a.json) return;
-  for (const std::string& note : condensed(textsOf(problem.source.notes)))
-    std::cerr << "note: " << note << '\n';
+  printNotes(problem.source.notes);
   if (!leftOut.except.empty())
     std::cerr << "note: the " << key << " are tested" << exceptText(problem.model, leftOut) << '\n';
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <numbers>
 #include <random>
@@ -328,7 +327,7 @@ int newProblem(const NewProblemArguments& a) {
     else
       out.line(i == 0 ? "start" : "goal", "no valid state was found", Tone::bad);
   if (!why.empty()) out.line("why", why);
-  for (const std::string& note : condensed(textsOf(notes))) std::cerr << "note: " << note << '\n';
+  printNotes(notes);
   return found.size() == 2 ? kDone : kNegativeResult;
 }
 

@@ -203,8 +203,12 @@ std::vector<std::string> condensed(const std::vector<std::string>& notes, const 
 void printFaults(const InputError& error) {
   std::cerr << error.what() << '\n';
   if (const auto* const noted = dynamic_cast<const NotedInputError*>(&error))
-    for (const std::string& note : condensed(textsOf(noted->notes()), ""))
-      std::cerr << "note: " << note << '\n';
+    printNotes(noted->notes(), "");
+}
+
+void printNotes(const std::vector<Note>& notes, const std::string& rest) {
+  for (const std::string& note : condensed(textsOf(notes), rest))
+    std::cerr << "note: " << note << '\n';
 }
 
 void requireWritable(const std::optional<std::string>& file, const char* option) {

@@ -48,6 +48,10 @@ inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
 std::vector<std::string> condensed(const std::vector<std::string>& notes,
                                    const std::string& rest = "; inspect --json lists all");
 
+/// Prints the notes on stderr, condensed. @param rest as for `condensed`.
+void printNotes(const std::vector<Note>& notes,
+                const std::string& rest = "; inspect --json lists all");
+
 /// Prints the faults on stderr, one a line, and then the notes on the part of the input that could
 /// be read.
 void printFaults(const InputError& error);

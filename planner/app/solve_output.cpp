@@ -103,8 +103,7 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   const bool solved = r.outcome == SolveOutcome::solved;
   if (printsFile(a)) {
     if (!solved) warn(std::string(nameOf(r.outcome)) + ": " + r.why);
-    for (const std::string& note : condensed(textsOf(p.source.notes)))
-      std::cerr << "note: " << note << '\n';
+    printNotes(p.source.notes);
   }
   const ResultPrinter out(a.quiet || printsFile(a));
   out.line("problem", problem);

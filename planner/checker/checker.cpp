@@ -284,13 +284,12 @@ double Checker::clearance(const Configuration& q) const {
 }
 
 std::vector<Scene::NearPair> Checker::pairsWithin(const Configuration& q, const PairMargins& within,
-                                                  const std::vector<std::uint32_t>* only,
-                                                  double scale) const {
+                                                  const Scene::NearSearch& search) const {
   requireStandardFloatingPoint();
   requireConfiguration(space(), q);
   Workspace& workspace = workspaceOfThread();
   return scene_.pairsWithin(workspace.poses.at(q), within, {.relative = 1e-3}, workspace.context,
-                            options_.trees, only, scale);
+                            search, options_.trees);
 }
 
 std::vector<std::uint32_t> Checker::pairsLeftByHulls(const Configuration& from,

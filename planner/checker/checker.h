@@ -170,10 +170,8 @@ class Checker {
   /// Returns the pairs of shapes whose distance is at most the pair's length in `within`
   /// (`Scene::pairsWithin`). The returned distances may exceed the true distances by a thousandth
   /// of their value.
-  /// @param only, scale as for `Scene::pairsWithin`.
   std::vector<Scene::NearPair> pairsWithin(const Configuration& q, const PairMargins& within,
-                                           const std::vector<std::uint32_t>* only = nullptr,
-                                           double scale = 1) const;
+                                           const Scene::NearSearch& search = {}) const;
   /// Returns the pairs of shapes that bounds and hulls do not prove to keep these margins on an
   /// edge, by their numbers in `Scene::pairs()`. The others are proved to keep them
   /// (`certifyEdge`), unless the edge leaves the configurations that are covered: then all pairs

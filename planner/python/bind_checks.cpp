@@ -1,12 +1,11 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <vector>
 
+#include "collision/geometry/isolated_points.h"
 #include "collision/world/body_queries.h"
 #include "planner/model/bounds.h"
 #include "planner/python/arrays.h"
@@ -114,39 +113,10 @@ py::array_t<bool> nearRobot(const NativeProblem& problem, const Array& points, c
   return near;
 }
 
-/// Returns, for each point, whether fewer than `neighbours` other points are at most `distance`
-/// away. The points are put into the cells of a grid, so that only 27 cells are searched for each.
 py::array_t<bool> isolated(const Array& points, double distance, std::size_t neighbours) {
-  if (!(distance > 0 && std::isfinite(distance)))
-    refuse("distance", "a finite number above 0 is needed");
-  using Cell = std::array<std::int64_t, 3>;
-  const std::vector<Vec3> all = pointsOf(points, "points");
-  const auto cellOf = [&](const Vec3& p) {
-    const Vec3 scaled = (p / distance).array().floor();
-    if (!(scaled.cwiseAbs().maxCoeff() < 0x1p52))
-      refuse("distance", "too small for coordinates as large as these");
-    return Cell{static_cast<std::int64_t>(scaled[0]), static_cast<std::int64_t>(scaled[1]),
-                static_cast<std::int64_t>(scaled[2])};
-  };
-  std::map<Cell, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < all.size(); ++i) cells[cellOf(all[i])].push_back(i);
-  const auto isIsolated = [&](std::size_t i) {
-    const Cell own = cellOf(all[i]);
-    std::size_t found = 0;
-    for (int k = 0; k < 27; ++k) {
-      const auto cell =
-          cells.find({own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1});
-      if (cell == cells.end()) continue;
-      for (const std::size_t other : cell->second) {
-        found += other != i && (all[other] - all[i]).norm() <= distance;
-        if (found >= neighbours) return false;
-      }
-    }
-    return found < neighbours;
-  };
-  py::array_t<bool> result(static_cast<py::ssize_t>(all.size()));
-  bool* const out = result.mutable_data();
-  for (std::size_t i = 0; i < all.size(); ++i) out[i] = isIsolated(i);
+  const std::vector<bool> found = isolatedPoints(pointsOf(points, "points"), distance, neighbours);
+  py::array_t<bool> result(static_cast<py::ssize_t>(found.size()));
+  std::copy(found.begin(), found.end(), result.mutable_data());
   return result;
 }
 

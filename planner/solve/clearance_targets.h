@@ -45,7 +45,7 @@ class ClearanceTargets {
   };
   /// Returns nullopt if every pair is proved to keep its target on the whole edge. Otherwise
   /// returns the pair with the smallest share at samples of the edge. (Pairs whose hulls keep the
-  /// target are not sampled; and if a sampled distance is below its target, no tree proves more.)
+  /// target are not sampled.)
   /// If no sampled distance is below its target, returns the time at which the proof failed, with a
   /// share just below 1: the target is missed by little, or only because of the tube. If the proof
   /// gives no time either, the share is 1.

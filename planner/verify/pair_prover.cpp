@@ -354,7 +354,6 @@ PairAnswer PairProver::decide(const TimeInterval& interval, const OpenPair& open
 Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, const Measured& m,
                                 Real usefulBound) {
   const Reach& bounds = reach(interval, pair);
-  const Configuration& tube = tube_;
   const Real half = interval.half;
   PairMotion motion;
   motion.half = half;
@@ -364,9 +363,8 @@ Real PairProver::boundPiecewise(const TimeInterval& interval, std::size_t pair, 
   Perturbation a, b;
   motion.secondOrder = secondOrder(bounds, half);
   if (tubeMatters(bounds)) {
-    const EdgeCurve& curve = *curve_;
-    a = curve.perturbationAt(chains_[pairs_[pair].chainA], interval.middle, tube);
-    b = curve.perturbationAt(chains_[pairs_[pair].chainB], interval.middle, tube);
+    a = curve_->perturbationAt(chains_[pairs_[pair].chainA], interval.middle, tube_);
+    b = curve_->perturbationAt(chains_[pairs_[pair].chainB], interval.middle, tube_);
   }
   motion.a = motionSeenFrom(m.a.at, m.a, std::move(a));
   motion.b = motionSeenFrom(m.a.at, m.b, std::move(b));
@@ -423,18 +421,17 @@ PathFinding PairProver::finding(const TimeInterval& interval, std::size_t pair,
                                 const PairAnswer& answer) {
   const Pair& p = pairs_[pair];
   enter(interval.edge);
-  const EdgeCurve& curve = *curve_;
   PathFinding finding;
   finding.verdict = *answer.verdict;
   finding.edge = static_cast<int>(interval.edge);
   finding.t = static_cast<double>(interval.middle);
-  finding.configuration = curve.configuration(interval.middle);
+  finding.configuration = curve_->configuration(interval.middle);
   finding.a = problem_.bodies[p.a].name;
   finding.b = problem_.bodies[p.b].name;
   finding.primitiveA = treeOf(p.a).leaf(answer.closest.a).number;
   finding.primitiveB = treeOf(p.b).leaf(answer.closest.b).number;
   const KinematicChain fromRoot = chainOf(*problem_.tree, 0, problem_.bodies[p.a].frame);
-  const Placement X_WA = curve.at(fromRoot, interval.middle).at;
+  const Placement X_WA = curve_->at(fromRoot, interval.middle).at;
   finding.point = (X_WA.rotation * answer.point + X_WA.position).cast<double>();
   finding.gap = static_cast<double>(answer.upper);
   finding.required = static_cast<double>(p.margin);

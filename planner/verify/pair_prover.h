@@ -55,8 +55,8 @@ struct PairAnswer {
 ///
 /// The object stores all data that depend only on the problem (box trees, kinematic chains), and
 /// what depends on the current edge alone (its curve, reach weights, the states of the frames at
-/// the latest time). When another edge is asked for, that is computed again: so memory does not
-/// grow with the number of edges. The states or pieces must outlive the object.
+/// the latest time). A query of another edge computes the latter again, so memory does not grow
+/// with the number of edges. The states or pieces must outlive the object.
 class PairProver {
  public:
   /// @throws std::invalid_argument as verifyPath() does.
@@ -166,16 +166,16 @@ class PairProver {
   std::vector<KinematicChain> chains_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> chainIndex_;  // key: (base, frame)
   std::vector<Pair> pairs_;  // those of problem_.pairs, then those of problem_.heldPairs
-  // Of the two, the one that is verified; the other is empty.
+  // Either the states of a path or the pieces of a curve; the other span is empty.
   std::span<const Configuration> states_;
   std::span<const CurvePiece> pieces_;
   std::size_t edges_ = 0;
   std::map<std::size_t, PathFinding> noCurve_;  // key: edge
-  // Of currentEdge_: its curve, the problem's tube with the piece's error, and, once they are
-  // needed, the motion bounds of the pairs.
+  // The curve of currentEdge_, and the problem's tube with the piece's error.
   std::optional<EdgeCurve> curve_;
   Configuration tube_;
-  std::vector<std::pair<std::size_t, PairReach>> reaches_;  // of each pair, with its edge
+  std::vector<std::pair<std::size_t, PairReach>>
+      reaches_;  // for each pair, the edge and its bounds
   // Bounds in segments of currentEdge_; the key is {2^depth + index of the segment, pair}.
   std::map<std::pair<std::size_t, std::size_t>, Reach> segments_;
   // For each chain, a time of currentEdge_ and the state of the frame at this time.

@@ -69,7 +69,7 @@ TEST(EnclosingHull, OnlyOfMeshesThatItFits) {
   std::vector<Vec3> many;
   std::mt19937_64 random(test::testSeed(92));
   std::normal_distribution<double> normal;
-  for (int i = 0; i < 641; ++i)
+  for (int i = 0; i < 801; ++i)
     many.push_back(Vec3(normal(random), normal(random), normal(random)).normalized());
   EXPECT_FALSE(enclosingHull(meshOf(Polytope(many))));
   many.pop_back();

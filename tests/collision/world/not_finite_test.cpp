@@ -111,7 +111,7 @@ TEST(NotFinite, PosesOfFramesAreRefused) {
   forEachNotFinite(good, [&](const auto& bad, const std::string& what) {
     EXPECT_THROW(scene.interference(bad, context), std::invalid_argument) << what;
     EXPECT_THROW(scene.clearance(bad, context), std::invalid_argument) << what;
-    EXPECT_THROW(scene.pairsWithin(bad, within, {}, context), std::invalid_argument) << what;
+    EXPECT_THROW(scene.pairsWithin(bad, within, {}, context, {}), std::invalid_argument) << what;
   });
   for (const double bad : kNotFinite)
     for (std::size_t i = 0; i < 3; ++i) {

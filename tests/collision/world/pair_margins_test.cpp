@@ -160,7 +160,7 @@ TEST(PairMargins, RefusesWrongNumbers) {
     const PairMargins margins(metres);
     EXPECT_THROW(row.scene().certify(edge, optionsWith(margins, 0), context),
                  std::invalid_argument);
-    EXPECT_THROW(row.scene().pairsWithin(std::vector<Transform>(2), margins, {}, context),
+    EXPECT_THROW(row.scene().pairsWithin(std::vector<Transform>(2), margins, {}, context, {}),
                  std::invalid_argument);
     const auto fault =
         checkCertificate(edge, row.scene().motionPairs(), optionsWith(margins, 0), 0, {}, context);
@@ -187,18 +187,15 @@ TEST(PairMargins, FindsThePairsWithinThem) {
         distances.push_back(std::hypot(aside, row.gapOf(k)));
         metres.push_back(k == 1 ? 0 : share * distances.back());
       }
-      const auto near = row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context);
+      const auto near = row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context, {});
       const std::vector<std::uint32_t> only = {1, 2};
-      const auto some =
-          row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context, TreeKind::obb4, &only);
+      const auto some = row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context, {&only});
       ASSERT_EQ(some.size(), share > 1 ? 1u : 0u);
       if (share > 1) {
         EXPECT_EQ(some.front().pair, 2u);
       }
       EXPECT_TRUE(
-          row.scene()
-              .pairsWithin(X_WF, PairMargins(metres), {}, context, TreeKind::obb4, &only, 0.9)
-              .empty());
+          row.scene().pairsWithin(X_WF, PairMargins(metres), {}, context, {&only, 0.9}).empty());
       ASSERT_EQ(near.size(), share > 1 ? 3u : 0u);
       std::size_t before = 0;
       for (const Scene::NearPair& pair : near) {

@@ -52,7 +52,7 @@ TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   EXPECT_EQ(nlohmann::json::parse(run("inspect problem.yaml --json").out)["pairs"]["tested"], 1);
 }
 
-/// Opening a pipe that nobody reads waits for a reader. One signal ends the program.
+/// Opening a pipe waits for a reader. One signal ends the program.
 TEST_F(CommandLine, OutputToAPipeWithoutAReader) {
   EXPECT_EQ(run("solve problem.yaml -o pipe", "mkfifo pipe; timeout -k 20 1 ").status, 124);
 }

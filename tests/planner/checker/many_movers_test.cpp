@@ -129,7 +129,7 @@ TEST(ManyMovers, StatesHaveTheSameContactsAndClearances) {
     EXPECT_EQ(scene.interference(maps, context).has_value(), least == 0) << "state " << n;
     EXPECT_EQ(scene.clearance(maps, context), least) << "state " << n;
     const PairMargins within(std::vector<double>(scene.pairs().size(), 0.1));
-    EXPECT_EQ(scene.pairsWithin(maps, within, {}, context).size(), near) << "state " << n;
+    EXPECT_EQ(scene.pairsWithin(maps, within, {}, context, {}).size(), near) << "state " << n;
     contacts += least == 0;
   }
   EXPECT_GT(contacts, 5);

@@ -377,7 +377,7 @@ TEST_F(HostileNames, AreShownAsText) {
             std::string::npos);
 }
 
-/// Of a large cloud, the page shows some balls only, and says so.
+/// The page shows only some balls of a large cloud, and has a note on it.
 TEST(ViewPage, SaysThatACloudIsThinned) {
   Problem problem = ownProblem("two_arms");
   const auto body = std::find_if(
