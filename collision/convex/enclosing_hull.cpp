@@ -6,12 +6,15 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/core/rounding.h"
 #include "collision/geometry/vertex_welder.h"
 
 namespace corridor {
 namespace {
 
-constexpr std::size_t kMostVertices = 800;
+constexpr std::size_t kMostVertices = 1024;
+/// Cells along the longest side of the grid, at most.
+constexpr int kMostCells = 40;
 constexpr std::size_t kSampledTriangles = 256;
 constexpr double kDeepest = 0.35;  // mean depth of the triangles, as a part of the mesh's radius
 
@@ -26,8 +29,81 @@ std::vector<Vec3> usedVertices(const TriangleMesh& mesh) {
   return points.takePoints();
 }
 
+/// The cells of a grid over a box, numbered along rows.
+struct Grid {
+  Vec3 lower;
+  double edge = 0;
+  Eigen::Array3i counts;
+
+  std::size_t size() const { return static_cast<std::size_t>(counts.prod()); }
+  std::size_t indexOf(const Eigen::Array3i& cell) const {
+    return static_cast<std::size_t>((cell[0] * counts[1] + cell[1]) * counts[2] + cell[2]);
+  }
+};
+
+/// Returns the centres of the cells that are the first or the last one with vertices in each of
+/// their three rows.
+std::vector<Vec3> outerCells(const Grid& grid, const std::vector<char>& isFull) {
+  std::vector<char> isInside(grid.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+    Eigen::Array3i cell;
+    for (cell[second] = 0; cell[second] < grid.counts[second]; ++cell[second])
+      for (cell[third] = 0; cell[third] < grid.counts[third]; ++cell[third]) {
+        int first = -1, last = -1;
+        for (cell[axis] = 0; cell[axis] < grid.counts[axis]; ++cell[axis])
+          if (isFull[grid.indexOf(cell)]) {
+            if (first < 0) first = cell[axis];
+            last = cell[axis];
+          }
+        for (cell[axis] = first + 1; cell[axis] < last; ++cell[axis])
+          isInside[grid.indexOf(cell)] = true;
+      }
+  }
+  std::vector<Vec3> centers;
+  Eigen::Array3i cell;
+  for (cell[0] = 0; cell[0] < grid.counts[0]; ++cell[0])
+    for (cell[1] = 0; cell[1] < grid.counts[1]; ++cell[1])
+      for (cell[2] = 0; cell[2] < grid.counts[2]; ++cell[2])
+        if (isFull[grid.indexOf(cell)] && !isInside[grid.indexOf(cell)])
+          centers.emplace_back(grid.lower + grid.edge * (cell.cast<double>() + 0.5).matrix());
+  return centers;
+}
+
+/// Returns the hull of cells with vertices, with as fine a grid as the number of points permits.
+std::optional<EnclosingHull> hullOfCells(const TriangleMesh& mesh) {
+  Grid grid;
+  Vec3 upper = grid.lower = mesh.corner(0, 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      grid.lower = grid.lower.cwiseMin(mesh.corner(t, k));
+      upper = upper.cwiseMax(mesh.corner(t, k));
+    }
+  const Vec3 size = upper - grid.lower;
+  for (int cells = kMostCells; cells >= 5; cells = cells * 3 / 4) {
+    grid.edge = size.maxCoeff() / cells;
+    if (!(grid.edge > 0)) return std::nullopt;
+    const auto cellOf = [&](const Vec3& p) -> Eigen::Array3i {
+      return ((p - grid.lower) / grid.edge).array().cast<int>();
+    };
+    grid.counts = cellOf(upper) + 1;
+    std::vector<char> isFull(grid.size());
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t v : triangle) isFull[grid.indexOf(cellOf(mesh.vertices[v]))] = true;
+    std::vector<Vec3> centers = outerCells(grid, isFull);
+    if (centers.size() > kMostVertices) continue;
+    // Half the diagonal of a cell, and the rounding of cells and centres: a few 2^-53 of the
+    // coordinates.
+    const double terms = grid.lower.lpNorm<1>() + upper.lpNorm<1>();
+    return EnclosingHull{PointColumns(std::move(centers)),
+                         roundedUp(0.8660254038 * grid.edge + 0x1p-48 * terms)};
+  }
+  return std::nullopt;
+}
+
 /// Returns whether triangles lie, on average, not far below the surface of the hull of the points.
-bool fits(const PointColumns& points, const TriangleMesh& mesh) {
+bool fits(const EnclosingHull& hull, const TriangleMesh& mesh) {
+  const PointColumns& points = hull.points;
   double square = 0;
   for (const Vec3& p : points.points())
     square = std::max(square, (p - points.center()).squaredNorm());
@@ -39,19 +115,19 @@ bool fits(const PointColumns& points, const TriangleMesh& mesh) {
     const double area = normal.norm();  // twice the area
     if (!(area > 0)) continue;
     areas += area;
-    depths += normal.dot(points.points()[points.farthest(normal)] - a);
+    depths += normal.dot(points.points()[points.farthest(normal)] - a) + hull.radius * area;
   }
   return areas > 0 && depths < kDeepest * std::sqrt(square) * areas;
 }
 
 }  // namespace
 
-std::optional<PointColumns> enclosingHull(const TriangleMesh& mesh) {
+std::optional<EnclosingHull> enclosingHull(const TriangleMesh& mesh) {
   std::vector<Vec3> used = usedVertices(mesh);
-  if (used.empty()) return std::nullopt;
-  PointColumns points(std::move(used));
-  if (!fits(points, mesh)) return std::nullopt;
-  return points;
+  std::optional<EnclosingHull> hull =
+      used.empty() ? hullOfCells(mesh) : EnclosingHull{PointColumns(std::move(used))};
+  if (hull && !fits(*hull, mesh)) hull.reset();
+  return hull;
 }
 
 }  // namespace corridor

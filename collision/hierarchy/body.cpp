@@ -43,8 +43,8 @@ struct Body::Impl {
   mutable MeshComponents components;
   mutable std::optional<BoxTree> partBoxes;
   mutable std::once_flag hullOnce;
-  mutable std::optional<PointColumns> enclosing;  // of the mesh
-  mutable std::optional<ConvexSet> hull;          // a view of `enclosing`, or of the only part
+  mutable std::optional<EnclosingHull> enclosing;  // of the mesh
+  mutable std::optional<ConvexSet> hull;           // a view of `enclosing`, or of the only part
 
   static std::shared_ptr<const TriangleMesh> noMesh() {
     return std::make_shared<const TriangleMesh>();
@@ -210,7 +210,10 @@ const ConvexSet* Body::hull() const {
   std::call_once(impl_->hullOnce, [this] {
     if (parts().size() == 1) impl_->hull.emplace(parts().front());
     if (isMesh()) impl_->enclosing = enclosingHull(mesh());
-    if (impl_->enclosing) impl_->hull.emplace(*impl_->enclosing);
+    if (impl_->enclosing) {
+      impl_->hull.emplace(impl_->enclosing->points);
+      impl_->hull->ball = impl_->enclosing->radius;
+    }
   });
   return impl_->hull ? &*impl_->hull : nullptr;
 }

@@ -85,6 +85,7 @@ class Certifier {
  private:
   /// Returns the pairs that may come too close during the motion, in ascending order.
   std::span<const std::uint32_t> nearPairs() {
+    if (query_.options.only) return *query_.options.only;
     std::vector<std::uint32_t>& near = use_->near;
     if (query_.broadPhase && !query_.certificate) {
       motions_.select(0.5, 0.5);

@@ -93,6 +93,10 @@ struct MotionOptions {
   /// Metres that single pairs must keep apart in addition to `margin`, one for each pair of the
   /// query; null: none. Not owned.
   const PairMargins* pairMargins = nullptr;
+  /// The numbers of the pairs that are tested, in ascending order; null: all. The caller has proved
+  /// that the others keep their margins and the clearance slack on the whole motion, and that none
+  /// of their bodies is inside a solid one. Not for queries with a certificate. Not owned.
+  const std::vector<std::uint32_t>* only = nullptr;
   /// Clearance slack, metres: the clearance beyond margin and tube that `free` requires. A motion
   /// with less clearance is never `free`.
   double clearanceSlack = 0;

@@ -1,6 +1,7 @@
 #include "collision/motion/moving_hulls.h"
 
 #include "collision/convex/gjk.h"
+#include "collision/core/rounding.h"
 #include "collision/motion/moving_sets.h"
 
 namespace corridor {
@@ -19,7 +20,10 @@ bool haveHulls(const Body& a, const Body& b) {
 
 MovingHullsAnswer decideMovingHulls(const Body& a, const Body& b, const RelativeMotion& relative,
                                     double margin, HullGuess& guess) {
-  const MovingSets sets(*a.hull(), *b.hull(), relative, b.sphereCenter(), b.sphereRadius());
+  // The points of a mesh's hull may be outside of its sphere by the radius that sweeps them.
+  const double beyond = b.isMesh() ? b.hull()->ball : 0;
+  const MovingSets sets(*a.hull(), *b.hull(), relative, b.sphereCenter(),
+                        roundedUp(b.sphereRadius() + beyond));
   const double needed = sets.needed(margin);
   double best = -HUGE_VAL;
   const auto attempt = [&](const Vec3& n, double coreGap, std::uint32_t, std::uint32_t) {

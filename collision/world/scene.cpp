@@ -14,6 +14,7 @@
 #include "collision/core/floating_point.h"
 #include "collision/core/rounding.h"
 #include "collision/motion/broad_phase.h"
+#include "collision/motion/decide_interval.h"
 #include "collision/motion/interval_motions.h"
 #include "collision/motion/may_meet.h"
 #include "collision/motion/motion_answer.h"
@@ -325,6 +326,7 @@ MotionResult Scene::certifyPairs(MotionSource& motion, const MotionOptions& opti
           ? certifyMotion(motion, motionPairs_, options, context, certificate, broadPhase_.get())
           : certifyMotionUncounted(method, motion, motionPairs_, options, context);
   if (!solidMeshes_ || provesNothingFree(result)) return result;
+  if (options.only) return withContainment(result, *options.only, motion, context, certificate);
   IntervalMotions motions(motion, broadPhase_->bodies(), context);
   motions.select(0, 0);
   const auto use = context.scratch.use<NearPairs>();
@@ -383,6 +385,23 @@ MotionResult Scene::certify(MotionSource& motion, const MotionOptions& options,
   return result;
 }
 
+std::optional<MotionResult> Scene::contactAt(MotionSource& motion, std::size_t pair, double t,
+                                             const MotionOptions& options, std::uint64_t workEnd,
+                                             QueryContext& context) const {
+  if (!standardFloatingPoint() || motion.ambiguous()) return std::nullopt;
+  const MotionPair& bodies = motionPairs_[pair];
+  const Transform X_AB = motion.relativeMotion(bodies.motion, t, 0).X_AB;
+  const MotionQuery query{motionPairs_, options, context, nullptr, workEnd, nullptr};
+  const auto hit = contactBelow(query, static_cast<std::uint32_t>(pair), X_AB, kWholeTrees);
+  if (!hit) return std::nullopt;
+  MotionResult result;
+  result.verdict = MotionVerdict::contact;
+  result.certifiedUntil = 0;
+  result.time = t;
+  result.pair = Contact{bodies.bodyA, bodies.bodyB, hit->a, hit->b};
+  return result;
+}
+
 std::vector<std::uint32_t> Scene::pairsLeftByHulls(MotionSource& motion,
                                                    const MotionOptions& options,
                                                    QueryContext& context) const {
@@ -411,6 +430,7 @@ std::vector<MotionResult> Scene::certifyEachPair(MotionSource& motion, const Mot
     MotionOptions own = options;
     own.margin = options.marginOf(i);
     own.pairMargins = nullptr;
+    own.only = nullptr;
     result = certifyMotion(motion, {&motionPairs_[i], 1}, own, context);
     if (solidMeshes_) result = withContainment(result, {&i, 1}, motion, context, nullptr);
     if (result.verdict == MotionVerdict::undecided) counted = result;

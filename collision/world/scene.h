@@ -125,6 +125,12 @@ class Scene {
   /// from containment in a solid mesh, or if containment cannot be decided.
   MotionResult certify(MotionSource& motion, const MotionOptions& options, QueryContext& context,
                        MotionCertificate& certificate) const;
+  /// Returns a contact of pair number `pair`, at the rounded pose at t ∈ [0, 1], as a query of
+  /// `certify` that found it would: the pair and the time are set. Returns nullopt if there is
+  /// none, or if the counters reach `workEnd` before.
+  std::optional<MotionResult> contactAt(MotionSource& motion, std::size_t pair, double t,
+                                        const MotionOptions& options, std::uint64_t workEnd,
+                                        QueryContext& context) const;
   /// Returns `pairs()` in the form in which motion queries take them: entry i is pair i of
   /// `pairs()`. A certificate numbers its pairs in this order. The span is valid as long as the
   /// scene exists and is not moved.

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "collision/core/rounding.h"
+#include "collision/motion/motion_answer.h"
 #include "planner/checker/default_tolerance.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
@@ -121,11 +122,13 @@ struct Checker::Workspace {
   explicit Workspace(const Checker& checker)
       : motion(checker.model_.tree, checker.model_.space, checker.scene_.framePairs(),
                checker.required_.tube),
-        poses(checker.model_) {}
+        poses(checker.model_),
+        filter(checker.filter_.get()) {}
 
   QueryContext context;
   EdgeMotion motion;
   FramePoses poses;
+  EdgeFilter::Workspace filter;
   std::thread::id thread = std::this_thread::get_id();
   Workspace* next = nullptr;  // the workspace that was added just before this one; not owned
 };
@@ -179,6 +182,8 @@ Checker::Checker(const Model& model, const CheckerOptions& options, std::span<co
     paddings_.emplace(paddingsOf(model, required_.padding, scene_));
     options_.pairMargins = &*paddings_;
   }
+  if (options_.trees == TreeKind::obb4 && options_.hulls)
+    filter_ = EdgeFilter::make(model, scene_, required_.tube);
 }
 
 Checker::Checker(const Problem& problem, std::span<const Body> earlier)
@@ -213,7 +218,56 @@ MotionResult Checker::certifyState(const Configuration& q) const {
   if (!isCovered(q)) return refused(UndecidedReason::beyondProofs);
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(q, q);
-  return scene_.certify(workspace.motion, options_, workspace.context);
+  return decide(q, q, options_, workspace, true);
+}
+
+namespace {
+
+/// Tests pairs of a scene in the motion that is set, and keeps the contact found.
+class SceneTouchTest final : public TouchTest {
+ public:
+  SceneTouchTest(const Scene& scene, EdgeMotion& motion, const MotionOptions& options,
+                 QueryContext& context)
+      : scene_(scene),
+        motion_(motion),
+        options_(options),
+        context_(context),
+        workEnd_(context.counters.work() +
+                 std::min(options.workLimit, kNoWorkLimit - context.counters.work())) {}
+
+  bool touches(std::uint32_t number, double t) override {
+    contact = scene_.contactAt(motion_, number, t, options_, workEnd_, context_);
+    return contact.has_value();
+  }
+
+  std::optional<MotionResult> contact;
+
+ private:
+  const Scene& scene_;
+  EdgeMotion& motion_;
+  const MotionOptions& options_;
+  QueryContext& context_;
+  const std::uint64_t workEnd_;
+};
+
+}  // namespace
+
+MotionResult Checker::decide(const Configuration& from, const Configuration& to,
+                             MotionOptions options, Workspace& workspace,
+                             bool findsContacts) const {
+  requireValid(options, scene_.pairs().size());
+  const Counters& counters = workspace.context.counters;
+  const std::uint64_t before = counters.work();
+  SceneTouchTest test(scene_, workspace.motion, options, workspace.context);
+  const bool isFiltered = filter_ && filter_->prove(from, to, options, workspace.filter,
+                                                    findsContacts ? &test : nullptr);
+  if (isFiltered) options.only = &workspace.filter.left;
+  if (test.contact) {
+    count(workspace.motion, *test.contact, workspace.context.counters);
+    return *test.contact;
+  }
+  options.workLimit -= std::min(options.workLimit, counters.work() - before);
+  return scene_.certify(workspace.motion, options, workspace.context);
 }
 
 MotionResult Checker::certifyEdge(const Configuration& from, const Configuration& to,
@@ -245,9 +299,12 @@ MotionResult Checker::certify(const Configuration& from, const Configuration& to
   if (query.margins) options.pairMargins = query.margins;
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(from, to);
-  return query.certificate
-             ? scene_.certify(workspace.motion, options, workspace.context, *query.certificate)
-             : scene_.certify(workspace.motion, options, workspace.context, method);
+  // A certificate has an entry for every pair, and the other methods measure distances.
+  if (query.certificate)
+    return scene_.certify(workspace.motion, options, workspace.context, *query.certificate);
+  if (method != EdgeMethod::certified)
+    return scene_.certify(workspace.motion, options, workspace.context, method);
+  return decide(from, to, options, workspace, !query.earliest && !query.margins);
 }
 
 MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const {
@@ -300,8 +357,11 @@ std::vector<std::uint32_t> Checker::pairsLeftByHulls(const Configuration& from,
   if (!isCovered(from) || !isCovered(to)) return all;
   MotionOptions options = options_;
   options.pairMargins = &margins;
+  requireValid(options, scene_.pairs().size());
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(from, to);
+  if (filter_ && filter_->prove(from, to, options, workspace.filter, nullptr))
+    options.only = &workspace.filter.left;
   return scene_.pairsLeftByHulls(workspace.motion, options, workspace.context);
 }
 

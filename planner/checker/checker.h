@@ -6,6 +6,7 @@
 
 #include "collision/motion/check_certificate.h"
 #include "collision/world/scene.h"
+#include "planner/checker/edge_filter.h"
 #include "planner/checker/held_pairs.h"
 #include "planner/model/model.h"
 #include "planner/model/pair_proofs.h"
@@ -206,6 +207,11 @@ class Checker {
   bool isCovered(const Configuration& q) const;
   MotionResult certify(const Configuration& from, const Configuration& to, const EdgeQuery& query,
                        EdgeMethod method) const;
+  /// Decides the edge that the workspace's motion is set to, by `EdgeMethod::certified`. If there
+  /// is a filter, it goes first.
+  /// @param findsContacts whether any contact of the edge is an answer.
+  MotionResult decide(const Configuration& from, const Configuration& to, MotionOptions options,
+                      Workspace& workspace, bool findsContacts) const;
 
   const Model& model_;
   Required required_;
@@ -216,6 +222,7 @@ class Checker {
   std::optional<PairMargins> paddings_;  // for each pair of the scene; unset: no padding
   MotionOptions options_;                // refers to `paddings_`
   EdgeMethod method_;
+  std::unique_ptr<const EdgeFilter> filter_;  // null: none for this model
   std::unique_ptr<Pool> pool_;
 };
 

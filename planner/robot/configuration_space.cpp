@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "collision/core/rounding.h"
@@ -53,6 +54,12 @@ std::size_t ConfigurationSpace::add(Coordinate coordinate) {
 
 void ConfigurationSpace::addGroup(CoordinateGroup group) {
   groups_.push_back(std::move(group));
+}
+
+Coordinate::Kind ConfigurationSpace::kindOfNumber(std::size_t number) const {
+  for (const Coordinate& c : coordinates_)
+    if (c.first <= number && number < c.first + c.size()) return c.kind;
+  throw std::invalid_argument("a frame is moved by a variable that the space doesn't have");
 }
 
 std::vector<std::string> ConfigurationSpace::numberNames() const {

@@ -61,6 +61,9 @@ class ConfigurationSpace {
   std::vector<Coordinate>& coordinates() { return coordinates_; }
   const std::vector<CoordinateGroup>& groups() const { return groups_; }
   std::size_t size() const { return size_; }  ///< the length of a Configuration
+  /// Returns the kind of the coordinate to which a number of a Configuration belongs.
+  /// @throws std::invalid_argument if there is no such number.
+  Coordinate::Kind kindOfNumber(std::size_t number) const;
   /// Returns a name for each number of a Configuration: "x", "pan", …; for a rotation "qx", "qy",
   /// "qz" and "qw", after the coordinate's prefix ("left/qx").
   std::vector<std::string> numberNames() const;

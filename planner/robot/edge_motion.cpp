@@ -93,12 +93,6 @@ bool turns(Frame::Joint joint) {
   return joint == Frame::Joint::revolute || joint == Frame::Joint::rotation;
 }
 
-Coordinate::Kind kindOf(const ConfigurationSpace& space, std::size_t variable) {
-  for (const Coordinate& c : space.coordinates())
-    if (c.first <= variable && variable < c.first + c.size()) return c.kind;
-  throw std::invalid_argument("a frame is moved by a variable that the space doesn't have");
-}
-
 }  // namespace
 
 EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& moved,
@@ -131,8 +125,9 @@ EdgeMotion::Impl::Impl(const KinematicTree& tree, const ConfigurationSpace& move
     const Frame& frame = tree.frames[f];
     placeOf[f] = places.size();
     if (frame.moves()) movingPlaces.push_back(places.size());
-    places.push_back({frame.moves() ? MovingJoint(frame, fixed, kindOf(space, frame.variable), tube)
-                                    : MovingJoint(fixed),
+    places.push_back({frame.moves()
+                          ? MovingJoint(frame, fixed, space.kindOfNumber(frame.variable), tube)
+                          : MovingJoint(fixed),
                       {},
                       0});
     places.back().X = places.back().joint.at(0);

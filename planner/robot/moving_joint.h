@@ -78,6 +78,15 @@ class MovingJoint {
   double rotationError() const { return rotationError_; }
   double shiftError() const { return shiftError_; }
   double length() const { return length_; }
+  /// The numbers of `at`, on an edge between two states. Revolute: the matrix at t is fixed + sin
+  /// φ·sine + (1 − cos φ)·versine, with φ = angleAtZero + t·rate. Prismatic: the vector at t is
+  /// shiftAtZero + t·shiftRate.
+  const Mat3& fixed() const { return fixed_; }
+  const Mat3& sine() const { return sine_; }
+  const Mat3& versine() const { return versine_; }
+  double angleAtZero() const { return angle_; }
+  const Vec3& shiftAtZero() const { return from_; }
+  const Vec3& shiftRate() const { return delta_; }
 
  private:
   void setValue(const Configuration& from, const Configuration& to);

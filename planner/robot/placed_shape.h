@@ -25,9 +25,9 @@ struct PlacedShape {
   std::vector<ConvexPart> parts;  ///< one for a primitive; many for a cloud, an octree, a polygon
   std::filesystem::path file;     ///< the file that was read for this shape, if any
   std::optional<Primitive> primitive;  ///< as the user wrote it; nullopt: no primitive
-  RigidPose at;                        ///< the pose that the user gave, for reports and FCL
-  bool solid = false;                  ///< mesh only; a part is always solid
-  std::vector<Note> notes = {};        ///< about how the file was read
+  RigidPose at;        ///< the primitive's pose, as the user gave it; `parts` has it applied
+  bool solid = false;  ///< mesh only; a part is always solid
+  std::vector<Note> notes = {};  ///< about how the file was read
   /// The corners of a planar polygon, in the plane z = 0 of the frame; empty for other shapes. The
   /// parts are its convex pieces.
   std::vector<Vec2> polygon = {};

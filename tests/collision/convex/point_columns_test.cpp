@@ -58,22 +58,44 @@ TEST(EnclosingHull, OnlyOfMeshesThatItFits) {
   for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1, i >> 1 & 1, i >> 2);
   TriangleMesh cube = meshOf(Polytope(corners));
   ASSERT_TRUE(enclosingHull(cube));
-  EXPECT_EQ(enclosingHull(cube)->points().size(), 8u);
+  EXPECT_EQ(enclosingHull(cube)->points.points().size(), 8u);
   TriangleMesh room = cube;  // seen from inside
   for (auto& t : room.triangles) std::swap(t[0], t[1]);
   EXPECT_FALSE(enclosingHull(room));
   cube.vertices.emplace_back(9, 9, 9);        // in no triangle
   cube.vertices.push_back(cube.vertices[0]);  // the same point again
   cube.triangles.push_back({9, cube.triangles[0][1], cube.triangles[0][2]});
-  EXPECT_EQ(enclosingHull(cube)->points().size(), 8u);
-  std::vector<Vec3> many;
+  EXPECT_EQ(enclosingHull(cube)->points.points().size(), 8u);
+}
+
+/// A mesh of many vertices gets a hull of grid cells, which contains it and does not stick out far.
+TEST(EnclosingHull, ContainsMeshesOfManyVertices) {
   std::mt19937_64 random(test::testSeed(92));
   std::normal_distribution<double> normal;
-  for (int i = 0; i < 801; ++i)
-    many.push_back(Vec3(normal(random), normal(random), normal(random)).normalized());
-  EXPECT_FALSE(enclosingHull(meshOf(Polytope(many))));
-  many.pop_back();
-  EXPECT_TRUE(enclosingHull(meshOf(Polytope(many))));
+  std::size_t most = 0;
+  for (const int count : {1000, 1100, 3000, 12'000}) {
+    std::vector<Vec3> many;
+    for (int i = 0; i < count; ++i)
+      many.push_back(Vec3(7, -3, 1) +
+                     Vec3(normal(random), 0.3 * normal(random), normal(random)).normalized());
+    const TriangleMesh mesh = meshOf(Polytope(many));
+    const auto hull = enclosingHull(mesh);
+    ASSERT_TRUE(hull);
+    most = std::max(most, hull->points.points().size());
+    EXPECT_LE(hull->points.points().size(), 1024u);
+    EXPECT_EQ(hull->radius == 0, mesh.vertices.size() <= 1024) << mesh.vertices.size();
+    EXPECT_LT(hull->radius, 0.12);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 n = Vec3(normal(random), normal(random), normal(random)).normalized();
+      double highest = -HUGE_VAL;
+      for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t) highest = std::max(highest, n.dot(mesh.vertices[v]));
+      const double own = n.dot(hull->points.points()[hull->points.farthest(n)]) + hull->radius;
+      EXPECT_GE(own, highest - 1e-14);
+      EXPECT_LE(own, highest + 2 * hull->radius + 1e-14);
+    }
+  }
+  EXPECT_GT(most, 100u);
 }
 
 }  // namespace
