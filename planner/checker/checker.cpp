@@ -13,6 +13,7 @@
 #include "collision/core/rounding.h"
 #include "collision/motion/motion_answer.h"
 #include "planner/checker/default_tolerance.h"
+#include "planner/checker/edge_filter.h"
 #include "planner/problem/problem.h"
 #include "planner/robot/edge_motion.h"
 

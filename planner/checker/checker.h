@@ -6,7 +6,6 @@
 
 #include "collision/motion/check_certificate.h"
 #include "collision/world/scene.h"
-#include "planner/checker/edge_filter.h"
 #include "planner/checker/held_pairs.h"
 #include "planner/model/model.h"
 #include "planner/model/pair_proofs.h"
@@ -16,6 +15,7 @@
 
 namespace corridor {
 
+class EdgeFilter;
 struct Problem;
 
 /// Returns the scene of a model. The scene has one body for each shape of each model body, in the
