@@ -128,10 +128,10 @@ double leastSampled(const Case& c, const ChainScene::Pair& pair, int samples, Ra
     const double d = c.distanceOf(pair, t, off);
     if (d < least) least = d, at = t;
   };
-  const bool hasTube =
+  const bool isWidened =
       std::ranges::any_of(c.motions, [](const JointMotion& m) { return m.tube > 0; });
-  for (int corner = 0; corner < (hasTube ? 4 : 1); ++corner) {
-    for (double& o : off) o = hasTube ? (random() % 2 ? 1 : -1) : 0;
+  for (int corner = 0; corner < (isWidened ? 4 : 1); ++corner) {
+    for (double& o : off) o = isWidened ? (random() % 2 ? 1 : -1) : 0;
     sample(0);
     if (samples == 0) continue;
     for (int i = 1; i <= samples; ++i) sample(double(i) / samples);
