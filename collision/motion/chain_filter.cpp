@@ -71,7 +71,6 @@ constexpr double kLargest = 0x1p20;
 constexpr std::size_t kMostJoints = 64, kMostObstacles = 1024;
 /// Radians (or metres) of joint motion for eight intervals: shorter intervals prove little more.
 constexpr double kMotionOfSet = 0.9;
-constexpr int kMostSets = 8;
 
 float downToFloat(double x) {
   return -upToFloat(-x);
@@ -222,10 +221,8 @@ ChainFilter::ChainFilter(ChainScene scene) {
     }
     const auto path = pathOf(scene, pair.isWorld ? ChainScene::kNone : scene.links[pair.a].joint,
                              scene.links[pair.b].joint);
-    const auto begin = static_cast<std::uint32_t>(tables->path.size());
-    tables->path.insert(tables->path.end(), path.begin(), path.end());
-    tables->pairs.push_back(
-        {pair.isWorld, pair.a, pair.b, begin, static_cast<std::uint32_t>(tables->path.size())});
+    tables->pathJoints.insert(tables->pathJoints.end(), path.begin(), path.end());
+    tables->pathEnds.push_back(static_cast<std::uint32_t>(tables->pathJoints.size()));
   }
   tables->scene = std::move(scene);
   tables_ = std::move(tables);
@@ -310,7 +307,7 @@ void ChainFilter::pairsLeft(std::span<const JointMotion> motions, const MotionOp
     edge.still = edge.still && m.largestRate == 0;
   }
   edge.sets = 1;
-  while (edge.sets < kMostSets && edge.sets * kMotionOfSet < std::sqrt(square)) edge.sets *= 2;
+  while (edge.sets < kMostChainSets && edge.sets * kMotionOfSet < std::sqrt(square)) edge.sets *= 2;
   const std::vector<ChainScene::Pair>& pairs = tables_->scene.pairs;
   // The clearance that `certifyMotion` certainly proves.
   const double beyond = std::max(options.clearanceSlack, options.tolerance) + options.tolerance;

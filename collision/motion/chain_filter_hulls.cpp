@@ -30,7 +30,7 @@ class PairOfHulls {
       : tables_(tables),
         scratch_(scratch),
         number_(number),
-        pair_(tables.pairs[number]),
+        pair_(tables.scene.pairs[number]),
         b_(tables.scene.links[pair_.b]) {
     if (pair_.isWorld) {
       const ChainScene::Obstacle& obstacle = tables.scene.obstacles[pair_.a];
@@ -46,8 +46,8 @@ class PairOfHulls {
 
   /// Decides whether the hulls are proved apart in all open intervals. @param test may be null.
   HullsAnswer decide(TouchTest* test) {
-    const bool isTested = tables_.scene.pairs[number_].testsHulls;
-    if (!isTested || !hullA_ || tables_.links[pair_.b].points.empty()) return HullsAnswer::open;
+    if (!pair_.testsHulls || !hullA_ || tables_.links[pair_.b].points.empty())
+      return HullsAnswer::open;
     for (int set = 0; set < scratch_.edge.sets; ++set)
       if (const HullsAnswer answer = decideIn(set, test); answer != HullsAnswer::apart)
         return answer;
@@ -64,13 +64,12 @@ class PairOfHulls {
     if (open && !direction_.isZero(0)) open &= ~separated(set);
     for (int i = 0; open && i < kDirections; ++i) {
       const int lane = middleOf(open);
-      const Transform X_AB = inverse(poseInLane(tables_, scratch_, jointA_, set, lane)) *
+      const Transform X_AB = rigidInverse(poseInLane(tables_, scratch_, jointA_, set, lane)) *
                              poseInLane(tables_, scratch_, b_.joint, set, lane) * b_.X_JB;
       const gjk::Answer found = search(X_AB);
       if (!(found.lower > radii() + near())) {
         const bool meet = found.overlap || found.upper <= radii();
-        const std::uint32_t number = tables_.scene.pairs[number_].number;
-        return meet && test && test->touches(number, timeOf(scratch_.edge, set, lane))
+        return meet && test && test->touches(pair_.number, timeOf(scratch_.edge, set, lane))
                    ? HullsAnswer::touching
                    : HullsAnswer::open;
       }
@@ -102,9 +101,6 @@ class PairOfHulls {
     for (int skip = std::popcount(lanes) / 2; skip > 0; --skip) lanes &= lanes - 1;
     return std::countr_zero(lanes);
   }
-  static Transform inverse(const Transform& X) {
-    return {X.m.transpose(), -(X.m.transpose() * X.t)};
-  }
 
   /// The lanes in which the hulls are separated by `direction_`.
   unsigned separated(int set) const {
@@ -126,7 +122,7 @@ class PairOfHulls {
   const ChainTables& tables_;
   const ChainScratch& scratch_;
   std::uint32_t number_;
-  const ChainTables::Pair& pair_;
+  const ChainScene::Pair& pair_;
   const ChainScene::Link& b_;
   const ConvexSet* hullA_ = nullptr;
   Transform X_JA_;

@@ -221,7 +221,7 @@ class Balls : Lanes {
   }
 
   void testLinks(std::uint32_t number) {
-    const ChainTables::Pair& pair = tables_.pairs[number];
+    const ChainScene::Pair& pair = tables_.scene.pairs[number];
     const ChainTables::Link &a = tables_.links[pair.a], &b = tables_.links[pair.b];
     const ChainScratch::LinkLanes &lanesA = scratch_.links[pair.a],
                                   &lanesB = scratch_.links[pair.b];
@@ -233,8 +233,7 @@ class Balls : Lanes {
     const Twist twist = twistOf(a.joint, b.joint);
     const V3 velocity = twist.linear + cross(twist.angular, center);
     Sums sums = noMotion();
-    for (std::uint32_t k = pair.begin; k < pair.end; ++k)
-      addJoint(tables_.path[k], center, 0, sums);
+    for (const std::uint32_t joint : tables_.pathOf(number)) addJoint(joint, center, 0, sums);
     const F8 second = secondOf(sums, twist.amounts);
     const F8 own = isotropicOf(sums, second, velocity) + radii;
     unsigned apart = isGreater(square, kUp * (own * own));
@@ -324,7 +323,7 @@ void testBalls(const ChainTables& tables, ChainScratch& scratch) {
 
 unsigned testHull(const ChainTables& tables, const ChainScratch& scratch, std::uint32_t number,
                   int set, const float* n, float highest) {
-  const ChainTables::Pair& pair = tables.pairs[number];
+  const ChainScene::Pair& pair = tables.scene.pairs[number];
   const ChainEdge& edge = scratch.edge;
   const Lanes lanes(tables, edge,
                     scratch.joints.data() + static_cast<std::size_t>(set) * tables.joints.size());
@@ -364,8 +363,8 @@ unsigned testHull(const ChainTables& tables, const ChainScratch& scratch, std::u
   }
   Lanes::Sums sums = lanes.noMotion();
   const V3 center = lanes.place(b.joint, b.center);
-  for (std::uint32_t i = pair.begin; i < pair.end; ++i)
-    lanes.addJoint(tables.path[i], center, b.core, sums);
+  for (const std::uint32_t joint : tables.pathOf(number))
+    lanes.addJoint(joint, center, b.core, sums);
   const float needed = (edge.margins[number] + edge.pad + edge.lever + b.swept) * kUp;
   return isGreater(lowest - highest, kUp * (lanes.secondOf(sums, twist.amounts) + needed));
 }

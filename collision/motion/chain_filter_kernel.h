@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "collision/motion/chain_filter.h"
@@ -36,21 +37,21 @@ struct ChainTables {
     float center[3], axes[9], half[3];  ///< axes: the columns of a matrix, row by row
     float pad = 0;                      ///< metres: the error of a distance from the floats above
   };
-  /// The joints between the two bodies are `path[begin … end)`, from b to a.
-  struct Pair {
-    bool isWorld = false;
-    std::uint32_t a = 0, b = 0, begin = 0, end = 0;
-  };
 
   std::vector<Joint> joints;
   std::vector<Link> links;
   std::vector<Obstacle> obstacles;
   std::array<std::vector<float>, 3> lower, upper;  ///< boxes of obstacles, filled up to eights
-  std::vector<Pair> pairs;                         ///< as in the scene
-  std::vector<std::uint32_t> path;
+  /// The joints between the bodies of pair i, from b to a, are
+  /// `pathJoints[pathEnds[i] … pathEnds[i + 1])`.
+  std::vector<std::uint32_t> pathJoints, pathEnds = {0};
   std::vector<std::uint32_t> linkPairs;   ///< indices of the pairs of two links
   std::vector<std::uint32_t> worldPairs;  ///< for each link and obstacle, a pair's index, or kNone
   ChainScene scene;
+
+  std::span<const std::uint32_t> pathOf(std::uint32_t pair) const {
+    return std::span(pathJoints).subspan(pathEnds[pair], pathEnds[pair + 1] - pathEnds[pair]);
+  }
 };
 
 /// One edge. Bounds are rounded up.

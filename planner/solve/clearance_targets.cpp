@@ -164,11 +164,11 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
                                                                   const Configuration& to) const {
-  const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
-  if (pairs.empty() && !checker_.scene().pairs().empty()) return std::nullopt;
   // The proof goes first: the place where it fails is sampled first. Samples alone may miss it.
   const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
+  const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
+  if (pairs.empty() && !checker_.scene().pairs().empty()) return std::nullopt;
   if (result.time < 0) return worstOn(from, to, targets_, pairs);
   Worst worst = worstOn(from, to, targets_, pairs, result.time);
   if (worst.share >= 1) {
