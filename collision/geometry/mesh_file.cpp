@@ -11,6 +11,7 @@
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "collision/geometry/assimp_process.h"
+#include "collision/geometry/cached_mesh_file.h"
 #include "collision/geometry/file_frame.h"
 #include "collision/geometry/mesh_health.h"
 #include "collision/geometry/mesh_readers.h"
@@ -40,6 +41,28 @@ bool isMeshExtension(const std::string& extension) {
   return std::find(all.begin(), all.end(), extension) != all.end();
 }
 
+/// Returns whether a format is read from the bytes of one file.
+bool isOneFile(const std::string& extension) {
+  return extension != ".3mf" && extension != ".gltf" && extension != ".glb";
+}
+
+/// Returns the bytes of a file, which must not be of another format.
+std::string bytesOfFile(const std::filesystem::path& file, const std::string& extension) {
+  const bool isScene = extension == ".dae" || extension == ".gltf" || extension == ".glb";
+  std::string bytes = readFile(file, kWhat, isScene ? kMostSceneBytes : kMostFileBytes);
+  requireOwnFormat(bytes, file, kWhat);
+  return bytes;
+}
+
+/// Reads the bytes of a file whose format is `isOneFile`, without scale or rotation.
+ReadMesh readBytes(const std::string& bytes, const std::string& extension, MeshFaults& faults) {
+  if (extension == ".obj") return readObj(bytes, faults);
+  if (extension == ".stl") return readStl(bytes, faults);
+  if (extension == ".ply") return readPly(bytes, faults);
+  if (extension == ".off") return readOff(bytes, faults);
+  return readCollada(bytes, faults);
+}
+
 /// Reads a file of a format that is read, without scale or rotation.
 ReadMesh readStored(const std::filesystem::path& file, const std::string& extension,
                     MeshFaults& faults) {
@@ -47,16 +70,10 @@ ReadMesh readStored(const std::filesystem::path& file, const std::string& extens
     requireFile(file, kWhat, kMostSceneBytes);
     return readThreeMf(file.string(), faults);
   }
-  const bool isScene = extension == ".dae" || extension == ".gltf" || extension == ".glb";
-  const std::string bytes = readFile(file, kWhat, isScene ? kMostSceneBytes : kMostFileBytes);
-  requireOwnFormat(bytes, file, kWhat);
-  if (extension == ".obj") return readObj(bytes, faults);
-  if (extension == ".stl") return readStl(bytes, faults);
-  if (extension == ".ply") return readPly(bytes, faults);
-  if (extension == ".off") return readOff(bytes, faults);
-  if (extension == ".dae") return readCollada(bytes, faults);
-  if (extension == ".gltf") return readGltf(file.string(), bytes, faults);
-  return readGlb(file.string(), bytes, faults);
+  const std::string bytes = bytesOfFile(file, extension);
+  if (isOneFile(extension)) return readBytes(bytes, extension, faults);
+  return extension == ".gltf" ? readGltf(file.string(), bytes, faults)
+                              : readGlb(file.string(), bytes, faults);
 }
 
 void requireSound(const TriangleMesh& mesh, MeshFaults& faults) {
@@ -120,13 +137,11 @@ void checkOptions(const MeshFileOptions& options, MeshFaults& faults) {
   faults.throwIfAny();
 }
 
-MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options) {
-  MeshFaults faults(file.string());
-  checkOptions(options, faults);
-  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
-  const std::string extension = lowerExtension(file);
-  if (!isMeshExtension(extension)) faults.fail(0, notRead(extension));
-  ReadMesh read = readStored(file, extension, faults);
+namespace {
+
+/// Applies the options to a mesh as it is stored.
+MeshFile applied(ReadMesh read, const std::string& extension, const MeshFileOptions& options,
+                 MeshFaults& faults) {
   requireSound(read.mesh, faults);
   MeshFile result;
   result.mesh = std::move(read.mesh);
@@ -155,6 +170,23 @@ MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& 
     result.notes.push_back(std::move(*note));
   result.upRule = upRule(options, result);
   return result;
+}
+
+}  // namespace
+
+MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options,
+                      FileCache* cache) {
+  MeshFaults faults(file.string());
+  checkOptions(options, faults);
+  if (const std::string why = whyNotOrdinaryFile(file); !why.empty()) faults.fail(0, why);
+  const std::string extension = lowerExtension(file);
+  if (!isMeshExtension(extension)) faults.fail(0, notRead(extension));
+  if (!cache || !isOneFile(extension))
+    return applied(readStored(file, extension, faults), extension, options, faults);
+  const std::string bytes = bytesOfFile(file, extension);
+  return cachedMeshFile(bytes, extension, options, *cache, [&] {
+    return applied(readBytes(bytes, extension, faults), extension, options, faults);
+  });
 }
 
 bool hasMeshExtension(const std::filesystem::path& file) {

@@ -10,6 +10,8 @@
 
 namespace corridor {
 
+class FileCache;
+
 /// How to interpret the coordinates of a mesh file.
 struct MeshFileOptions {
   /// Metres per unit of the file. Unset: the file's own unit if the format has one, else 1.
@@ -46,7 +48,10 @@ struct MeshFile {
 /// Queries use the rounded coordinates that result.
 /// @throws InputError that names the file and the line, face or byte: unreadable, no faces, not
 /// finite, index out of range, truncated, too large, unknown extension, …
-MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {});
+/// @param cache if it has the mesh of the same bytes and options, only the bytes are read. Files of
+/// glTF and 3MF, and small files, are not kept. The result is the same with and without a cache.
+MeshFile readMeshFile(const std::filesystem::path& file, const MeshFileOptions& options = {},
+                      FileCache* cache = nullptr);
 
 /// Returns whether the extension of a name is one that `readMeshFile` reads.
 bool hasMeshExtension(const std::filesystem::path& file);

@@ -15,6 +15,7 @@
 #include "collision/convex/enclosing_hull.h"
 #include "collision/core/rounding.h"
 #include "collision/geometry/mesh_health.h"
+#include "collision/hierarchy/cached_tree.h"
 #include "collision/hierarchy/check_part.h"
 #include "collision/volumes/pair_tests.h"
 
@@ -34,9 +35,10 @@ struct Body::Impl {
   std::shared_ptr<const std::vector<ConvexPart>> parts = noParts();
   bool solid = false;
   TreeParams params;
+  std::shared_ptr<FileCache> cache;
   mutable std::once_flag once, componentsOnce, boxesOnce;
   mutable std::atomic<bool> built = false;
-  mutable std::optional<Obb4Tree> tree;
+  mutable std::shared_ptr<const Obb4Tree> tree;
 #define CORRIDOR_LAZY_TREE(Volume) LazyTree<VolumeTree<Volume>>,
   mutable std::tuple<CORRIDOR_EACH_VOLUME(CORRIDOR_LAZY_TREE) std::monostate> volumeTrees;
 #undef CORRIDOR_LAZY_TREE
@@ -113,7 +115,7 @@ Body::Body(std::string name, TriangleMesh mesh, bool solid, const TreeParams& pa
     : Body(std::move(name), std::make_shared<const TriangleMesh>(std::move(mesh)), solid, params) {}
 
 Body::Body(std::string name, std::shared_ptr<const TriangleMesh> mesh, bool solid,
-           const TreeParams& params)
+           const TreeParams& params, std::shared_ptr<FileCache> cache)
     : name_(std::move(name)), impl_(std::make_shared<Impl>()) {
   requireStandardFloatingPoint();
   if (mesh->triangles.empty()) throw std::invalid_argument("body " + name_ + " has no triangle");
@@ -126,9 +128,14 @@ Body::Body(std::string name, std::shared_ptr<const TriangleMesh> mesh, bool soli
       if (!component.watertight)
         throw std::invalid_argument("body " + name_ + " is not watertight; a solid must be");
   impl_->params = params;
+  impl_->cache = std::move(cache);
+  // Each vertex that a triangle uses, once.
+  std::vector<std::uint8_t> isUsed(impl_->mesh->vertices.size());
+  for (const auto& triangle : impl_->mesh->triangles)
+    for (const std::uint32_t corner : triangle) isUsed[corner] = 1;
   bounds_.around([&](auto take) {
-    for (std::size_t t = 0; t < impl_->mesh->triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) take(impl_->mesh->corner(t, i), 0, Vec3::Zero());
+    for (std::size_t v = 0; v < isUsed.size(); ++v)
+      if (isUsed[v]) take(impl_->mesh->vertices[v], 0, Vec3::Zero());
   });
 }
 
@@ -197,10 +204,8 @@ const BoxTree& Body::partBoxes() const {
 
 const Obb4Tree& Body::tree() const {
   std::call_once(impl_->once, [this] {
-    if (isMesh())
-      impl_->tree.emplace(*impl_->mesh, impl_->params.fit);
-    else
-      impl_->tree.emplace(impl_->parts);
+    impl_->tree = isMesh() ? cachedTree(*impl_->mesh, impl_->params.fit, impl_->cache.get())
+                           : std::make_shared<const Obb4Tree>(impl_->parts);
     impl_->built = true;
   });
   return *impl_->tree;
@@ -209,7 +214,7 @@ const Obb4Tree& Body::tree() const {
 const ConvexSet* Body::hull() const {
   std::call_once(impl_->hullOnce, [this] {
     if (parts().size() == 1) impl_->hull.emplace(parts().front());
-    if (isMesh()) impl_->enclosing = enclosingHull(mesh());
+    if (isMesh()) impl_->enclosing = cachedHull(mesh(), impl_->cache.get());
     if (impl_->enclosing) {
       impl_->hull.emplace(impl_->enclosing->points);
       impl_->hull->ball = impl_->enclosing->radius;

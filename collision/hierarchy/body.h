@@ -14,6 +14,8 @@
 
 namespace corridor {
 
+class FileCache;
+
 /// A named mesh, or a union of convex parts, in the coordinates of the frame to which the body is
 /// fixed. Each tree is built when a query first needs it; this is thread-safe. Except for its
 /// trees, a body is immutable. Equal bodies at different places can share one mesh and its trees
@@ -27,8 +29,10 @@ class Body {
   Body(std::string name, TriangleMesh mesh, bool solid = false, const TreeParams& params = {});
   /// A mesh that the body shares with the caller instead of copying it. Otherwise this constructor
   /// equals the one above. @pre `mesh` is not null.
+  /// @param cache where to look for the tree and the hull of the mesh before they are computed, and
+  /// to which they are offered then; null: none.
   Body(std::string name, std::shared_ptr<const TriangleMesh> mesh, bool solid = false,
-       const TreeParams& params = {});
+       const TreeParams& params = {}, std::shared_ptr<FileCache> cache = nullptr);
   /// A convex part, which is solid. (`checkPrimitive` checks a primitive before it is made a part.)
   /// @throws std::invalid_argument if the part has no point, or a point that is not finite; if its
   /// radius is negative or not finite; or if it has flat ends and not exactly two points.

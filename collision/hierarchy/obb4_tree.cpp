@@ -24,10 +24,13 @@ Obb4Tree::Obb4Tree(const TriangleMesh& mesh, ObbFit fit, unsigned threads)
   if (const auto complaint = checkMesh(mesh)) throw std::invalid_argument(*complaint);
   if (n >= kMostItems) throw std::length_error("a tree must have fewer than 2^29 - 1 triangles");
   take(layOutObb4(mesh, fit, threads));
-  triangles_.resize(n);
-  inParts(threads, n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) triangles_[i] = mesh.triangles[meshTriangle_[i]];
-  });
+  takeTriangles(mesh, threads);
+}
+
+Obb4Tree::Obb4Tree(const TriangleMesh& mesh, Obb4Layout layout) : vertices_(mesh.vertices) {
+  requireStandardFloatingPoint();
+  take(std::move(layout));
+  takeTriangles(mesh, 1);
 }
 
 Obb4Tree::Obb4Tree(std::shared_ptr<const std::vector<ConvexPart>> parts, unsigned threads)
@@ -45,6 +48,18 @@ void Obb4Tree::take(Obb4Layout layout) {
   nodes_ = std::move(layout.nodes);
   meshTriangle_ = std::move(layout.order);
   take(layout.frame);
+}
+
+void Obb4Tree::takeTriangles(const TriangleMesh& mesh, unsigned threads) {
+  const std::size_t n = meshTriangle_.size();
+  triangles_.resize(n);
+  inParts(threads, n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) triangles_[i] = mesh.triangles[meshTriangle_[i]];
+  });
+}
+
+Obb4Layout Obb4Tree::layout() const {
+  return {root_, nodes_, meshTriangle_, {origin_, length_, radius_}};
 }
 
 void Obb4Tree::take(const Obb4Frame& frame) {
@@ -65,8 +80,7 @@ void Obb4Tree::refit(const TriangleMesh& moved) {
   std::vector<Vec3> vertices = moved.vertices;
   take(refitObb4(moved, meshTriangle_, root_, nodes_));
   vertices_ = std::move(vertices);
-  for (std::size_t i = 0; i < triangles_.size(); ++i)
-    triangles_[i] = moved.triangles[meshTriangle_[i]];
+  takeTriangles(moved, 1);
 }
 
 std::size_t Obb4Tree::bytes() const {

@@ -55,6 +55,9 @@ class Obb4Tree {
   /// @throws std::invalid_argument if the mesh has no triangle or `checkMesh` finds a fault,
   /// std::length_error for 2^29 − 1 triangles or more.
   explicit Obb4Tree(const TriangleMesh& mesh, ObbFit fit = ObbFit::triangles, unsigned threads = 1);
+  /// The tree of a layout that was kept. @pre `layout` is what `layout()` of a tree over an equal
+  /// mesh returned.
+  Obb4Tree(const TriangleMesh& mesh, Obb4Layout layout);
   /// A tree over convex parts, which may overlap. Each leaf holds one part. The tree shares the
   /// parts with the caller. @pre All parts are valid: they were made of primitives in which
   /// `checkPrimitive` finds no fault.
@@ -97,10 +100,14 @@ class Obb4Tree {
   /// triangles than the tree, or if `checkMesh` finds a fault. The tree is then unchanged.
   void refit(const TriangleMesh& moved);
 
+  /// Returns a copy of all that was computed for the mesh.
+  Obb4Layout layout() const;
+
   std::size_t bytes() const;
 
  private:
   void take(Obb4Layout layout);
+  void takeTriangles(const TriangleMesh& mesh, unsigned threads);
   void take(const Obb4Frame& frame);
 
   Obb1 root_ = {};

@@ -16,7 +16,7 @@ namespace corridor {
 namespace {
 
 constexpr std::size_t kMostPieces = 1'000'000;
-constexpr int kMostDepth = 1000;
+constexpr int kMostCuts = 1000;
 constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 
 /// Returns the distance of p from a point of the segment. Up to rounding, this is the point closest
@@ -103,7 +103,7 @@ class Search {
 
   /// Upper bound of the rounding of a distance, metres. Each coordinate of a candidate point is a
   /// sum of at most three terms below 4·largest, with weights in [0, 1]: 8 roundings of at most
-  /// 4u·largest. A corner of a piece comes from up to `kMostDepth` cuts, each with three roundings
+  /// 4u·largest. A corner of a piece comes from up to `kMostCuts` cuts, each with three roundings
   /// of terms below 4·largest: 12u·largest for each. Three coordinates: less than 2^15·u·largest.
   /// The norm adds 3u of itself, which is below 16·largest. Squares below 2^-1022 vanish, and so do
   /// lengths below 2^-511.
@@ -191,7 +191,7 @@ HullDeviation hullDeviation(const Polytope& hull, const TriangleMesh& mesh, doub
         result.at = corner;
       }
     }
-    if (result.found > limit || piece.depth == kMostDepth || count == kMostPieces) return result;
+    if (result.found > limit || piece.depth == kMostCuts || count == kMostPieces) return result;
     // A cut makes too little progress if on one side the piece reaches at most half of the limit
     // from the line.
     if (piece.guess != kNoTriangle &&

@@ -22,6 +22,7 @@ void addBenchmark(CLI::App& program, int& status);  ///< of the program corridor
 void addCheck(CLI::App& program, int& status);
 void addInspect(CLI::App& program, int& status);
 void addPose(CLI::App& program, int& status);
+void addCache(CLI::App& program, int& status);
 void addNew(CLI::App& program, int& status);
 
 }  // namespace corridor::app

@@ -23,6 +23,7 @@
 #include "planner/app/other_program.h"
 #include "planner/app/output.h"
 #include "planner/app/read_mesh.h"
+#include "planner/app/robot_argument.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/problem/yaml_value.h"
 #include "planner/robot/urdf_file.h"
@@ -130,38 +131,6 @@ int inspectMeshFile(const InspectArguments& a) {
     out.line("self-intersections", text);
   }
   return kDone;
-}
-
-bool isRobotFile(const std::string& file) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) return false;
-  const YamlValue document = parseYaml(file, readTextFile(file, "a problem or a robot"));
-  return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
-    return entry.key == "format" && entry.value.text.starts_with("corridor-robot-");
-  });
-}
-
-/// Returns the robot of a folder: its robot.yaml, or else its only URDF. Returns "" for a folder
-/// that contains a problem, and for anything that is not a folder.
-/// @throws InputError if a folder contains neither a problem nor a robot.yaml, and has no URDF or
-/// several.
-std::string robotInFolder(const std::filesystem::path& folder) {
-  std::error_code none;
-  if (!std::filesystem::is_directory(folder, none) ||
-      std::filesystem::exists(folder / "problem.yaml", none))
-    return "";
-  if (std::filesystem::exists(folder / "robot.yaml", none)) return folder / "robot.yaml";
-  std::vector<std::string> robots;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    if (lowered(entry.path().extension().string()) == ".urdf")
-      robots.push_back(entry.path().string());
-  std::sort(robots.begin(), robots.end());
-  if (robots.size() == 1) return robots[0];
-  throw InputError(Fault{folder.string(), 0,
-                         robots.empty() ? "no problem.yaml, robot.yaml or URDF in this folder"
-                                        : "no problem.yaml or robot.yaml in this folder, and "
-                                          "several URDFs: name one of " +
-                                              joined(robots)});
 }
 
 /// @param inFolder true if `a.file` is the robot that `robotInFolder` found.

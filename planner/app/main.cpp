@@ -15,5 +15,5 @@ int main(int argc, char** argv) {
     return becomeProgram("corridor_query", {argv + 1, argv + argc});
   return runCommands(argc, argv,
                      {addSolve, addVerify, addView, listBenchmark, addCheck, addInspect, addPose,
-                      listQuery, listCourse, addNew});
+                      listQuery, listCourse, addNew, addCache});
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "collision/core/error.h"
+#include "collision/core/file_cache.h"
 #include "collision/core/shortest.h"
 #include "collision/core/spelling.h"
 #include "planner/jobs/ranks.h"
@@ -131,10 +132,19 @@ std::string stateText(const ConfigurationSpace& space, const Configuration& q) {
   return text;
 }
 
-Problem readProblemOf(const std::string& file) {
-  Problem problem = readProblem(file);
+Problem readProblemOf(const std::string& file, std::shared_ptr<FileCache> cache) {
+  Problem problem = readProblem(file, std::move(cache));
   if (nothingIsTested(problem)) warn(file + ": " + kNothingTested);
   return problem;
+}
+
+void saveCache(FileCache* cache, bool quiet) {
+  if (!cache) return;
+  std::cout.flush();
+  const std::string before = cache->complaint();
+  cache->save();
+  if (!quiet && cache->complaint() != before)
+    std::cerr << "corridor: note: " << cache->complaint() << '\n';
 }
 
 Verified verifyWithWarning(const Problem& problem, const Solution& solution,

@@ -62,7 +62,12 @@ void warn(const std::string& text);
 /// Reads the problem of a command. If the problem tests no pair of bodies, prints a warning before
 /// any other output; the problem's `notes` contain the same warning. @throws InputError as
 /// readProblem.
-Problem readProblemOf(const std::string& file);
+/// @param cache see `readProblem`.
+Problem readProblemOf(const std::string& file, std::shared_ptr<FileCache> cache = nullptr);
+
+/// Writes what a cache was offered. A command does this after it has given its answer. Prints a
+/// note on stderr if something can't be written, unless `quiet` is set. @param cache may be null
+void saveCache(FileCache* cache, bool quiet);
 
 struct Verified {
   VerifyReport report;

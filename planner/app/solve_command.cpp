@@ -42,6 +42,7 @@ int solveSingle(const std::string& file, const SolveArguments& a,
     std::cout << jsonText(reportJson(ordered_json::array({jsonOf(solved, file)}))) << '\n';
   else if (!a.json && !a.jsonLines)
     print(solved, file, a);
+  saveCache(solved.problem.model.cache.get(), a.quiet);
   if (interrupted) return interruptedStatus();
   const bool done = solved.report.outcome == SolveOutcome::solved &&
                     (!solved.report.trajectory || solved.report.trajectory->proved());

@@ -105,6 +105,8 @@ ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a
         send("writes");
       });
       report = jsonOf(solved, problem.file);
+      // Now, because the parent ends this process after its last message.
+      saveCache(solved.problem.model.cache.get(), a.quiet);
       for (const Note& note : solved.problem.source.notes)
         if (note.weight == NoteWeight::coverage && !a.quiet)
           std::cerr << problem.name << ": note: " << note.text << '\n';

@@ -13,6 +13,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/digest.h"
+#include "planner/problem/user_cache.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/solution.h"
 #include "planner/trajectory/trajectory_text.h"
@@ -138,7 +139,7 @@ TrajectoryFileKind trajectoryKindOf(const std::string& file) {
 Solved solveOne(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted, const std::function<void()>& beforeWriting) {
   const auto before = std::chrono::steady_clock::now();
-  Problem problem = readProblemOf(file);
+  Problem problem = readProblemOf(file, userCache());
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - before;
   // Computed before planning, because the files may change while the planner runs.
   const std::string digest = a.output ? digestOf(problem) : "";
@@ -157,6 +158,8 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
   addFirst(report.notes, problem.source.notes);
+  if (const auto& cache = problem.model.cache; cache && !cache->complaint().empty())
+    problem.source.notes.push_back({cache->complaint(), NoteWeight::detail});
   if (beforeWriting) beforeWriting();
   if (report.outcome == SolveOutcome::solved) writeFiles(a, problem, report, digest, from);
   return {std::move(problem), std::move(report), reading.count(), tries};

@@ -86,7 +86,7 @@ Scene makeScene(const Model& model, const Required& need, const TreeParams& para
     if (same != made.end()) return same->second->renamed(shape.name);
     const auto [first, isNew] = known.try_emplace({shape.mesh.get(), shape.solid}, placed.size());
     if (!isNew) return placed[first->second].body.renamed(shape.name);
-    return Body(shape.name, {shape.mesh, &shape.mesh->mesh}, shape.solid, params);
+    return Body(shape.name, {shape.mesh, &shape.mesh->mesh}, shape.solid, params, model.cache);
   };
   const std::vector<Transform> X_WF = staticFramePoses(model);
   for (const ModelBody& body : model.bodies) {

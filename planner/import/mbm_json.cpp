@@ -33,8 +33,8 @@ constexpr int kMostDepth = 64;
 /// name the key or the object ("goals[2]", "box1.size").
 class MbmReader {
  public:
-  MbmReader(const std::filesystem::path& file, const std::string& index)
-      : file_(file), index_(index), faults_(file.string()) {}
+  MbmReader(const std::filesystem::path& file, const std::string& index, FileCache* cache = nullptr)
+      : file_(file), index_(index), cache_(cache), faults_(file.string()) {}
 
   std::vector<std::string> indices() { return indicesOf(parse()); }
 
@@ -258,7 +258,7 @@ class MbmReader {
     std::vector<Fault> found;
     std::vector<std::filesystem::path> files;
     const auto urdf = dataFile(set, "urdf"), srdf = dataFile(set, "srdf");
-    auto model = readUrdf(urdf, {}, found, files, &problem_.source.notes);
+    auto model = readUrdf(urdf, {.cache = cache_}, found, files, &problem_.source.notes);
     for (const auto& file : files) addFile(setup.files, file);
     addFile(setup.files, srdf);
     if (model) readSrdf(srdf, *model, found);
@@ -349,6 +349,7 @@ class MbmReader {
 
   std::filesystem::path file_;
   std::string index_;
+  FileCache* cache_;
   FaultList faults_;
   ModelBuilder builder_;
   Problem problem_;
@@ -356,8 +357,9 @@ class MbmReader {
 
 }  // namespace
 
-Problem readMbmProblem(const std::filesystem::path& file, const std::string& index) {
-  return MbmReader(file, index).read();
+Problem readMbmProblem(const std::filesystem::path& file, const std::string& index,
+                       FileCache* cache) {
+  return MbmReader(file, index, cache).read();
 }
 
 std::vector<std::string> mbmIndices(const std::filesystem::path& file) {

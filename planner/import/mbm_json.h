@@ -13,7 +13,8 @@ namespace corridor {
 /// @param index a value of `problems[].index` in the set. If `index` is empty, the function throws
 /// an InputError whose fault lists the indices of the set.
 /// @throws InputError with the faults of the set, the URDF and the SRDF.
-Problem readMbmProblem(const std::filesystem::path& file, const std::string& index);
+Problem readMbmProblem(const std::filesystem::path& file, const std::string& index,
+                       FileCache* cache = nullptr);
 
 /// Returns the values of `problems[].index` in a set, in the order of the set. @throws InputError
 /// if the set can't be read.

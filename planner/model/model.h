@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,6 +16,8 @@
 #include "planner/robot/robot_description.h"
 
 namespace corridor {
+
+class FileCache;
 
 /// A joint that is planned for, or the pose of a rigid robot.
 struct PlannedJoint {
@@ -142,6 +145,8 @@ struct Model {
   ConfigurationSpace space;
   std::vector<ModelBody> bodies;  ///< the robots' links that have shapes, then the obstacles
   PairFilter filter;              ///< decides which pairs of `bodies` are tested
+  /// Where the bodies of scenes look for trees and hulls of meshes (`Body`); null: nowhere.
+  std::shared_ptr<FileCache> cache;
 };
 
 /// Returns the padding of two bodies of a model, metres.

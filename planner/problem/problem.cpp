@@ -12,11 +12,13 @@
 
 namespace corridor {
 
-Problem readProblem(const std::filesystem::path& path) {
+namespace {
+
+Problem read(const std::filesystem::path& path, FileCache* cache) {
   const std::string text = path.string();
   if (const auto hash = text.rfind(".json#"); hash != text.npos)
-    return readMbmProblem(text.substr(0, hash + 5), text.substr(hash + 6));
-  if (path.extension() == ".json") return readMbmProblem(path, "");
+    return readMbmProblem(text.substr(0, hash + 5), text.substr(hash + 6), cache);
+  if (path.extension() == ".json") return readMbmProblem(path, "", cache);
   std::error_code none;  // ignored: the reader reports a file that can't be accessed
   if (std::filesystem::is_regular_file(path, none) && isUrdf(path))
     throw InputError(
@@ -24,13 +26,21 @@ Problem readProblem(const std::filesystem::path& path) {
               "this is a robot, not a problem; `corridor new problem` writes a problem "
               "for it"});
   if (!std::filesystem::is_directory(path, none))
-    return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path);
+    return path.extension() == ".cfg" ? readOmplAppCfg(path) : readProblemYaml(path, cache);
   const std::filesystem::path file = path / "problem.yaml";
   if (std::error_code failure; !std::filesystem::exists(file, failure))
     throw InputError(Fault{path.string(), 0,
                            failure ? "this folder can't be read: " + failure.message()
                                    : "no problem.yaml in this folder"});
-  return readProblemYaml(file);
+  return readProblemYaml(file, cache);
+}
+
+}  // namespace
+
+Problem readProblem(const std::filesystem::path& path, std::shared_ptr<FileCache> cache) {
+  Problem problem = read(path, cache.get());
+  problem.model.cache = std::move(cache);
+  return problem;
 }
 
 Fault Source::faultAt(std::string_view key, std::string text) const {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,7 +50,9 @@ struct Problem {
 /// MotionBenchMaker set, `FILE.json#INDEX`.
 /// @throws InputError with all faults of the file and of the files that it names. If there are
 /// notes on what could be read, the error is a NotedInputError, which contains these notes.
-Problem readProblem(const std::filesystem::path& path);
+/// @param cache where meshes are looked for before they are read, and later, by checkers of the
+/// model, their trees and hulls; null: none. The problem is the same with and without a cache.
+Problem readProblem(const std::filesystem::path& path, std::shared_ptr<FileCache> cache = nullptr);
 
 /// Replaces the margin of a problem. If the proof that some pairs of links are never in contact
 /// does not cover the new margin plus the padding, these pairs are tested, and a note reports it.

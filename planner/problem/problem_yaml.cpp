@@ -37,7 +37,7 @@ const std::vector<std::string>& wordsOfKey(const char* key) {
 class RobotFiles {
  public:
   /// @param notes gets the notes of robots that can't be used.
-  RobotFiles(FaultList& faults, std::vector<Note>& notes) : faults_(faults), notes_(notes) {}
+  RobotFiles(const YamlSource& source, std::vector<Note>& notes) : source_(source), notes_(notes) {}
 
   /// @param group see readRobotFile.
   std::optional<RobotSetup> read(const YamlMap& map, const char* key,
@@ -53,11 +53,14 @@ class RobotFiles {
     const auto known = read_.find(path);
     return known != read_.end()
                ? known->second
-               : read_.emplace(path, readRobotFile(path, faults_, notes_, group)).first->second;
+               : read_
+                     .emplace(path, readRobotFile(path, source_.faults, notes_, group,
+                                                  RobotUse::plan, source_.cache))
+                     .first->second;
   }
 
  private:
-  FaultList& faults_;
+  const YamlSource& source_;
   std::vector<Note>& notes_;
   std::map<std::filesystem::path, std::optional<RobotSetup>> read_;
 };
@@ -80,7 +83,7 @@ void readBase(const YamlMap& map, std::optional<RobotSetup>& robot) {
 std::vector<RobotSetup> readRobots(const YamlMap& file, const std::filesystem::path& folder,
                                    const std::string& group, std::vector<Note>& notes) {
   std::vector<RobotSetup> robots;
-  RobotFiles files(file.source().faults, notes);
+  RobotFiles files(file.source(), notes);
   const auto key = file.requireOne({"robot", "robots"}, "one of robot and robots",
                                    "the robot's file, such as robot: "
                                    "../../robots/piano/robot.yaml");
@@ -205,12 +208,13 @@ void noteSmaller(const Padding& scene, const Padding& own, Problem& problem) {
 
 /// Reads the problem's file, and the files that it names, into `problem`. Even if an exception is
 /// thrown, `problem` has the notes that were made before.
-void readYaml(const std::filesystem::path& file, Problem& problem) {
+void readYaml(const std::filesystem::path& file, FileCache* cache, Problem& problem) {
   const YamlValue document =
       parseYaml(file.string(), readTextFile(file, "a problem (format: corridor-problem-1)"));
   FaultList faults(file.string());
   YamlSource source{file.string(), faults, {}};
   source.places = problemPlaces();
+  source.cache = cache;
   if (!acceptsFormat(document, "corridor-problem-1", source)) faults.throwIfAny();
   const YamlMap map(document, "", &problemKeys().at(""), source);
 
@@ -292,9 +296,9 @@ void readYaml(const std::filesystem::path& file, Problem& problem) {
 
 }  // namespace
 
-Problem readProblemYaml(const std::filesystem::path& file) {
+Problem readProblemYaml(const std::filesystem::path& file, FileCache* cache) {
   Problem problem;
-  readWithNotes(problem.source.notes, [&] { readYaml(file, problem); });
+  readWithNotes(problem.source.notes, [&] { readYaml(file, cache, problem); });
   return problem;
 }
 

@@ -7,7 +7,7 @@
 namespace corridor {
 
 /// Reads a file of the format corridor-problem-1, with its robot files and meshes.
-/// @throws NotedInputError with the faults of all these files.
-Problem readProblemYaml(const std::filesystem::path& file);
+/// @param cache see `readProblem`. @throws NotedInputError with the faults of all these files.
+Problem readProblemYaml(const std::filesystem::path& file, FileCache* cache = nullptr);
 
 }  // namespace corridor

@@ -102,9 +102,9 @@ std::optional<RobotSetup> readRigid(const YamlMap& map, const std::string& name,
 
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
                                         std::vector<Note>& notesOfFaulty, const std::string& group,
-                                        RobotUse use) {
+                                        RobotUse use, FileCache* cache) {
   RobotSetup setup;
-  if (isUrdf(file)) return readBareUrdf(file, use, faults, notesOfFaulty);
+  if (isUrdf(file)) return readBareUrdf(file, use, faults, notesOfFaulty, cache);
 
   setup.files.push_back(file);
   YamlValue document;
@@ -116,6 +116,7 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   }
   const std::size_t faultsBefore = faults.size();
   YamlSource source{file.string(), faults, {}};
+  source.cache = cache;
   if (!acceptsFormat(document, "corridor-robot-1", source)) return std::nullopt;
   const YamlMap map(document, "", &robotKeys().at(""), source);
   const std::string name = map.text("name").value_or(nameOfFile(file, "robot"));
@@ -134,12 +135,12 @@ std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, Fault
   return read;
 }
 
-RobotSetup readRobotAlone(const std::filesystem::path& file, RobotUse use) {
+RobotSetup readRobotAlone(const std::filesystem::path& file, RobotUse use, FileCache* cache) {
   std::optional<RobotSetup> setup;
   std::vector<Note> notes;
   readWithNotes(notes, [&] {
     FaultList faults(file.string());
-    setup = readRobotFile(file, faults, notes, "", use);
+    setup = readRobotFile(file, faults, notes, "", use, cache);
     if (setup) notes = setup->robot.description.notes;
     faults.throwIfAny();
   });

@@ -32,12 +32,15 @@ enum class RobotUse {
 /// `joints`. Empty: no group.
 /// @param notesOfFaulty gets the notes if the result is nullopt; otherwise the notes are in
 /// `robot.description` of the result.
+/// @param cache see `readProblem`
 std::optional<RobotSetup> readRobotFile(const std::filesystem::path& file, FaultList& faults,
                                         std::vector<Note>& notesOfFaulty,
                                         const std::string& group = "",
-                                        RobotUse use = RobotUse::plan);
+                                        RobotUse use = RobotUse::plan, FileCache* cache = nullptr);
 
 /// Reads a robot's file that is not part of a problem. @throws NotedInputError with all faults.
-RobotSetup readRobotAlone(const std::filesystem::path& file, RobotUse use = RobotUse::plan);
+/// @param cache see `readProblem`.
+RobotSetup readRobotAlone(const std::filesystem::path& file, RobotUse use = RobotUse::plan,
+                          FileCache* cache = nullptr);
 
 }  // namespace corridor

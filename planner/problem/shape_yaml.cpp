@@ -181,7 +181,7 @@ std::shared_ptr<const MeshFile> ShapeMeshes::read(const YamlMap& map, const char
   const auto [known, isNew] = meshes_.try_emplace({file, {options.metresPerUnit, options.up}});
   if (!isNew) return known->second;
   try {
-    MeshFile mesh = readMeshFile(file, options);
+    MeshFile mesh = readMeshFile(file, options, map.source().cache);
     if (const char up = mesh.fileUp.value_or('z'); up != 'z' && !options.up)
       mesh.notes.push_back(noteOnUp("the file", std::string("up: ") + up));
     known->second = std::make_shared<const MeshFile>(std::move(mesh));

@@ -369,6 +369,7 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
   rules.softLimits = map.choice("limits", robotChoices().at("limits")) == "soft";
   rules.colladaUp = map.choice("collada_up", robotChoices().at("collada_up")) == "file";
   rules.xacro = readXacro(map);
+  rules.cache = map.source().cache;
   const auto urdf = readFileName(map, "urdf", folder);
   const auto srdf = readFileName(map, "srdf", folder);
   if (!urdf || (map.find("srdf") && !srdf)) return std::nullopt;
@@ -434,9 +435,10 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
 }
 
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotUse use,
-                                       FaultList& faults, std::vector<Note>& notesOfFaulty) {
+                                       FaultList& faults, std::vector<Note>& notesOfFaulty,
+                                       FileCache* cache) {
   RobotSetup setup;
-  auto model = readModel(file, {}, std::nullopt, faults, setup.files, notesOfFaulty);
+  auto model = readModel(file, {.cache = cache}, std::nullopt, faults, setup.files, notesOfFaulty);
   if (!model) return std::nullopt;
   setup.robot.description = std::move(*model);
   const JointList active = allMoving(setup.robot);

@@ -24,9 +24,10 @@ std::optional<RobotSetup> readUrdfRobot(const YamlMap& map, const std::string& n
 
 /// Reads a URDF without a robot.yaml: all its moving joints are planned for. Returns nullopt if the
 /// URDF has a fault, or if `use` is `plan` and no joint can move. @param notesOfFaulty see
-/// readRobotFile.
+/// readRobotFile. @param cache see readProblem.
 std::optional<RobotSetup> readBareUrdf(const std::filesystem::path& file, RobotUse use,
-                                       FaultList& faults, std::vector<Note>& notesOfFaulty);
+                                       FaultList& faults, std::vector<Note>& notesOfFaulty,
+                                       FileCache* cache);
 
 /// The slack of limits, rad or m. A value that exceeds a limit by at most `limitSlack` is replaced
 /// by the limit, with a note. Limits and values are often written with π rounded to four decimals

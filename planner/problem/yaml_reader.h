@@ -21,6 +21,8 @@
 /// on, so that a user sees all faults at once.
 namespace corridor {
 
+class FileCache;
+
 /// A key that is not supported.
 struct UnsupportedKey {
   std::string key;
@@ -44,6 +46,7 @@ struct YamlSource {
   /// Where keys belong that people write into a wrong map, by the wrong path: the key `time` at the
   /// top level has the text "planner: {time: …}". Faults of unknown keys quote these texts.
   std::map<std::string, std::string> places = {};
+  FileCache* cache = nullptr;  ///< see `readProblem`
 
   void fault(int line, std::string text) const { faults.add(file, line, std::move(text)); }
 };

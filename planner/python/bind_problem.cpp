@@ -7,6 +7,7 @@
 #include "planner/model/model_builder.h"
 #include "planner/model/planned_joints.h"
 #include "planner/problem/assembly.h"
+#include "planner/problem/user_cache.h"
 #include "planner/python/arrays.h"
 #include "planner/python/bindings.h"
 #include "planner/python/fingerprint.h"
@@ -265,7 +266,11 @@ void bindProblem(py::module_& module) {
       "read_problem",
       [](const std::string& file) {
         const py::gil_scoped_release unlocked;
-        return std::make_shared<NativeProblem>(readProblem(file));
+        Problem problem = readProblem(file);
+        // Only trees and hulls come from the cache. Meshes are read from their files, since a
+        // script may also verify with this problem, and proofs must not depend on a cache.
+        problem.model.cache = userCache();
+        return std::make_shared<NativeProblem>(std::move(problem));
       },
       py::arg("file"));
   module.def("build_problem", &build, py::arg("robots"), py::arg("obstacles"), py::arg("allow"));

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <string>
 
+#include "collision/core/file_cache.h"
 #include "planner/checker/left_out.h"
 #include "planner/problem/digest.h"
 #include "planner/python/arrays.h"
@@ -58,6 +59,7 @@ SolveReport solveInThread(const Problem& problem, SolveOptions& options,
     }
   }
   if (failed) throw py::error_already_set();
+  if (const auto& cache = problem.model.cache) cache->save();
   return report.get();
 }
 

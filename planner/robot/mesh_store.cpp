@@ -210,9 +210,9 @@ MeshStore::FoundMesh MeshStore::add(const std::string& name) {
   if (!place.complaint.empty() || meshes_.contains(place.file)) return place;
   std::shared_ptr<const MeshFile>& mesh = meshes_[place.file];
   try {
-    MeshFile read = readMeshFile(place.file);
+    MeshFile read = readMeshFile(place.file, {}, rules_.cache);
     if (rules_.colladaUp && read.isCollada && read.fileUp != 'z')
-      read = readMeshFile(place.file, {.up = read.fileUp});
+      read = readMeshFile(place.file, {.up = read.fileUp}, rules_.cache);
     for (const std::string& other : read.otherFiles)
       if (std::find(files_.begin(), files_.end(), other) == files_.end()) files_.push_back(other);
     mesh = std::make_shared<const MeshFile>(std::move(read));

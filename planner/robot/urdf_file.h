@@ -11,6 +11,8 @@
 
 namespace corridor {
 
+class FileCache;
+
 /// Folders by package name, for names such as `package://NAME/…` in a URDF. If a package is not
 /// listed, the reader searches for the file in these folders, in this order:
 /// - the folder NAME beside the URDF;
@@ -35,6 +37,8 @@ struct UrdfRules {
   /// rule, and a note names the files whose up-axis is not z.
   bool colladaUp = false;
   std::vector<std::string> xacro = {};  ///< arguments for a .xacro file: "prefix:=left_"
+  /// Where meshes are looked for before they are read (`readMeshFile`); null: none.
+  FileCache* cache = nullptr;
 };
 
 /// Returns whether a file is a URDF: one whose name ends in .urdf or .xacro, in capitals or not, or

@@ -85,7 +85,7 @@ TEST_F(CommandLine, BadUsageIsOneLine) {
   EXPECT_EQ(said(""), "A subcommand is required; see corridor --help\n");
   EXPECT_EQ(said("slove problem.yaml"),
             "unknown command \"slove\" (did you mean \"solve\"?); there are: solve, verify, "
-            "view, benchmark, check, inspect, pose, query, course, new\n");
+            "view, benchmark, check, inspect, pose, query, course, new, cache\n");
   EXPECT_EQ(said("verify problem.yaml"), "FILE is required; see corridor verify --help\n");
   for (const char* time : {"0", "-1", "nan", "inf", "20s"})
     EXPECT_EQ(said(std::string("solve problem.yaml --time ") + time),

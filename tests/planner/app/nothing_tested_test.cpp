@@ -50,6 +50,7 @@ TEST_F(NothingTested, EveryCommandWarnsFirst) {
       {"inspect", {"inspect alone.yaml", "inspect alone.yaml --json"}},
       {"query", {}},   // takes two meshes, no problem
       {"course", {}},  // takes no problem, either
+      {"cache", {}},   // fills a cache, and answers nothing about a problem
       {"pose", {}},    // takes a robot, no problem
       {"new", {}},     // takes a robot, no problem
   };

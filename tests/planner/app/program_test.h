@@ -36,8 +36,9 @@ class ProgramTest : public testing::Test {
   std::string read(const std::string& name) const { return contents(folder_ / name); }
   /// @param input shell commands before the program, such as "echo 0 | " for its stdin.
   Result run(const std::string& arguments, const std::string& input = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + input +
-                                "'" CORRIDOR_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+    const std::string command = "export CORRIDOR_CACHE='" + cache_ + "' && cd '" +
+                                folder_.string() + "' && " + input + "'" CORRIDOR_PROGRAM "' " +
+                                arguments + " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
@@ -74,6 +75,7 @@ class ProgramTest : public testing::Test {
   }
 
   std::filesystem::path folder_ = newFolder();
+  std::string cache_ = "off";  ///< value of CORRIDOR_CACHE
 };
 
 }  // namespace corridor::test

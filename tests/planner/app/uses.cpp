@@ -143,6 +143,7 @@ const std::vector<Use>& uses() {
        "query cube.obj cube.obj --poses poses.txt --deform cube.obj cube.obj",
        {},
        "query cube.obj cube.obj --poses poses.txt --deform cube.obj --repeat 1000000"},
+      {"CacheBuild", "cache build arm.urdf", {}, "cache build vast.urdf"},
       {"Course", "course plane cube.obj planes.txt", {}, "course plane cube.obj -"},
       {"QuerySavePoses",
        "query cube.obj cube.obj --grid 10x10x10 --save-poses out/grid.txt",
@@ -165,6 +166,8 @@ const std::vector<Use>& uses() {
 
 UseTest::UseTest() {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans of the program become children of this process
+  cache_ = folder_ / "cache";
+  ::setenv("CORRIDOR_CACHE", cache_.c_str(), 1);  // for `start`
   fs::create_directory(folder_ / "out");
   fs::create_directory(folder_ / "tmp");
   write("robot.yaml",
@@ -282,6 +285,8 @@ void UseTest::learnWhole(const Use& use) {
     whole_[file] = read("out/" + file);
   }
   fs::remove_all(folder_ / "out");
+  cache_ = folder_ / "cache";
+  ::setenv("CORRIDOR_CACHE", cache_.c_str(), 1);  // for `start`
   fs::create_directory(folder_ / "out");
 }
 

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "collision/core/error.h"
+#include "collision/core/file_cache.h"
+#include "collision/core/spelling.h"
+#include "collision/hierarchy/body.h"
+#include "planner/app/commands.h"
+#include "planner/app/output.h"
+#include "planner/app/robot_argument.h"
+#include "planner/problem/problem.h"
+#include "planner/problem/robot_file.h"
+#include "planner/problem/user_cache.h"
+#include "planner/robot/urdf_file.h"
+
+namespace corridor::app {
+namespace {
+
+using Meshes = std::set<std::shared_ptr<const MeshFile>>;
+
+void addMeshes(const std::vector<PlacedShape>& shapes, Meshes& meshes) {
+  for (const PlacedShape& shape : shapes)
+    if (shape.mesh) meshes.insert(shape.mesh);
+}
+
+/// Adds the meshes of a robot or a problem.
+void addMeshesOf(const std::string& file, const std::shared_ptr<FileCache>& cache, Meshes& meshes) {
+  const std::string inFolder = robotInFolder(file);
+  const std::string extension = lowered(std::filesystem::path(file).extension().string());
+  const bool isYaml = extension == ".yaml" || extension == ".yml";
+  if (!inFolder.empty() || (isYaml ? isRobotFile(file) : isUrdf(file))) {
+    const RobotSetup setup =
+        readRobotAlone(inFolder.empty() ? file : inFolder, RobotUse::describe, cache.get());
+    for (const LinkModel& link : setup.robot.description.links) addMeshes(link.shapes, meshes);
+    return;
+  }
+  const Problem problem = readProblemOf(file, cache);
+  for (const ModelBody& body : problem.model.bodies) addMeshes(body.shapes, meshes);
+}
+
+std::string megabytes(std::uint64_t bytes) {
+  return rounded(static_cast<double>(bytes) / 1e6) + " MB";
+}
+
+/// Returns the user's cache. @throws InputError if there is none, or it can't be used.
+std::shared_ptr<FileCache> requireCache() {
+  auto cache = userCache();
+  if (!cache)
+    throw InputError(Fault{"CORRIDOR_CACHE", 0,
+                           "there is no cache, since this variable is \"off\", or neither it nor "
+                           "XDG_CACHE_HOME nor HOME names a folder"});
+  if (const std::string why = cache->complaint(); !why.empty())
+    throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
+  return cache;
+}
+
+void show() {
+  const auto cache = requireCache();
+  const FileCache::Size size = cache->size();
+  const ResultPrinter out(false);
+  out.line("folder", cache->folder().string());
+  out.line("files", grouped(size.files));
+  out.line("size", megabytes(size.bytes) + " of at most " + megabytes(cache->mostBytes()));
+}
+
+void build(const std::vector<std::string>& files) {
+  const auto cache = requireCache();
+  Meshes meshes;
+  for (const std::string& file : files) addMeshesOf(file, cache, meshes);
+  for (const auto& mesh : meshes) {
+    const Body body("mesh", {mesh, &mesh->mesh}, false, {}, cache);
+    body.tree();
+    body.hull();
+  }
+  cache->save();
+  if (const std::string why = cache->complaint(); !why.empty())
+    throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
+  const FileCache::Counts counts = cache->counts();
+  std::cout << grouped(meshes.size()) << (meshes.size() == 1 ? " mesh: " : " meshes: ")
+            << grouped(counts.found) << " results were in the cache, " << grouped(counts.written)
+            << " were added\n";
+}
+
+}  // namespace
+
+void addCache(CLI::App& program, int& status) {
+  CLI::App* const command =
+      program.add_subcommand("cache", "show, fill or empty the cache of meshes, trees and hulls");
+  command->footer(
+      "The cache is a folder of the user: $CORRIDOR_CACHE, $XDG_CACHE_HOME/corridor, or\n"
+      "~/.cache/corridor. CORRIDOR_CACHE=off turns it off. `solve` fills it after its answer.");
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App* const builder = command->add_subcommand(
+      "build", "compute now what later commands need of the large meshes of robots and problems");
+  builder->add_option("FILE", *files, "a robot or a problem")->required();
+  builder->callback([files, &status] {
+    build(*files);
+    status = kDone;
+  });
+  command->add_subcommand("clear", "remove all files of the cache")->callback([&status] {
+    std::cout << counted(requireCache()->clear(), "file") << " removed\n";
+    status = kDone;
+  });
+  command->callback([command, &status] {
+    if (!command->get_subcommands().empty()) return;
+    show();
+    status = kDone;
+  });
+}
+
+}  // namespace corridor::app

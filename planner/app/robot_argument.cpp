@@ -1,0 +1,42 @@
+#include "planner/app/robot_argument.h"
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include "collision/core/error.h"
+#include "collision/core/read_file.h"
+#include "collision/core/spelling.h"
+#include "planner/problem/yaml_value.h"
+
+namespace corridor::app {
+
+bool isRobotFile(const std::string& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return false;
+  const YamlValue document = parseYaml(file, readTextFile(file, "a problem or a robot"));
+  return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
+    return entry.key == "format" && entry.value.text.starts_with("corridor-robot-");
+  });
+}
+
+std::string robotInFolder(const std::filesystem::path& folder) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(folder, none) ||
+      std::filesystem::exists(folder / "problem.yaml", none))
+    return "";
+  if (std::filesystem::exists(folder / "robot.yaml", none)) return folder / "robot.yaml";
+  std::vector<std::string> robots;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (lowered(entry.path().extension().string()) == ".urdf")
+      robots.push_back(entry.path().string());
+  std::sort(robots.begin(), robots.end());
+  if (robots.size() == 1) return robots[0];
+  throw InputError(Fault{folder.string(), 0,
+                         robots.empty() ? "no problem.yaml, robot.yaml or URDF in this folder"
+                                        : "no problem.yaml or robot.yaml in this folder, and "
+                                          "several URDFs: name one of " +
+                                              joined(robots)});
+}
+
+}  // namespace corridor::app
