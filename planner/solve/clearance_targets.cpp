@@ -134,18 +134,17 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
 /// smallest: at samples, and then around the sample with the smallest ratio. If no ratio is below
 /// 1, returns a `Worst` with the share 1.
 /// @param pairs the pairs that are searched.
+/// @param enough the search ends once a ratio is below this one.
 /// @param first a time to sample first.
-ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
-                                                  const Configuration& to,
-                                                  const PairMargins& lengths,
-                                                  const std::vector<std::uint32_t>& pairs,
-                                                  std::optional<double> first) const {
+ClearanceTargets::Worst ClearanceTargets::worstOn(
+    const Configuration& from, const Configuration& to, const PairMargins& lengths,
+    const std::vector<std::uint32_t>& pairs, double enough, std::optional<double> first) const {
   const ConfigurationSpace& space = checker_.space();
   const double length = space.distance(from, to), samples = std::ceil(length / kSampleLength);
   const int count = static_cast<int>(std::clamp<double>(samples, kLeastSamples, kMostSamples));
   Worst worst;
   const auto sample = [&](double t) {
-    if (t < 0 || t > 1) return;
+    if (t < 0 || t > 1 || worst.share < enough) return;
     for (const Scene::NearPair& near :
          checker_.pairsWithin(space.interpolate(from, to, t), lengths, {&pairs, worst.share}))
       if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
@@ -163,14 +162,15 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(const Configuration& from,
 }
 
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
-                                                                  const Configuration& to) const {
+                                                                  const Configuration& to,
+                                                                  double enough) const {
   // The proof goes first: the place where it fails is sampled first. Samples alone may miss it.
   const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
   if (pairs.empty() && !checker_.scene().pairs().empty()) return std::nullopt;
-  if (result.time < 0) return worstOn(from, to, targets_, pairs);
-  Worst worst = worstOn(from, to, targets_, pairs, result.time);
+  if (result.time < 0) return worstOn(from, to, targets_, pairs, enough);
+  Worst worst = worstOn(from, to, targets_, pairs, enough, result.time);
   if (worst.share >= 1) {
     worst.t = result.time;
     worst.share = kJustMissed;

@@ -49,7 +49,9 @@ class ClearanceTargets {
   /// If no sampled distance is below its target, returns the time at which the proof failed, with a
   /// share just below 1: the target is missed by little, or only because of the tube. If the proof
   /// gives no time either, the share is 1.
-  std::optional<Worst> missedOn(const Configuration& from, const Configuration& to) const;
+  /// @param enough a share; the samples end once one is below it.
+  std::optional<Worst> missedOn(const Configuration& from, const Configuration& to,
+                                double enough = 0) const;
   /// Returns the pair with the smallest distance at samples of an edge, whatever the targets are.
   /// Returns nullopt if no pair is closer than `clearance()` at a sample. In this result, `share`
   /// is the distance divided by `clearance()`.
@@ -64,7 +66,8 @@ class ClearanceTargets {
 
  private:
   Worst worstOn(const Configuration& from, const Configuration& to, const PairMargins& lengths,
-                const std::vector<std::uint32_t>& pairs, std::optional<double> first = {}) const;
+                const std::vector<std::uint32_t>& pairs, double enough = 0,
+                std::optional<double> first = {}) const;
   std::vector<TangentStep> gradientsOf(const std::vector<Scene::NearPair>& near,
                                        const Configuration& q) const;
 

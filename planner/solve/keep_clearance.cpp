@@ -48,7 +48,8 @@ class PathMover {
   const Configuration& endOf(std::size_t edge) const {
     return edge + 1 < edges_.size() ? edges_[edge + 1].from : last_;
   }
-  Edge measured(const Configuration& from, const Configuration& to);
+  /// @param enough see `ClearanceTargets::missedOn`.
+  Edge measured(const Configuration& from, const Configuration& to, double enough = 0);
   /// Adds an edge that keeps all targets to both memories.
   void addKept(const Configuration& from, const Configuration& to) {
     free_.addFree(from, to);
@@ -69,9 +70,10 @@ class PathMover {
   double length_ = 0;
 };
 
-PathMover::Edge PathMover::measured(const Configuration& from, const Configuration& to) {
+PathMover::Edge PathMover::measured(const Configuration& from, const Configuration& to,
+                                    double enough) {
   std::optional<ClearanceTargets::Worst> missed;
-  if (!onTarget_.knowsFree(from, to)) missed = targets_.missedOn(from, to);
+  if (!onTarget_.knowsFree(from, to)) missed = targets_.missedOn(from, to, enough);
   if (!missed) addKept(from, to);
   return {from, space_.distance(from, to), !missed, missed.value_or(ClearanceTargets::Worst())};
 }
@@ -99,14 +101,15 @@ bool PathMover::replace(std::size_t first, std::size_t last, const Configuration
   const Configuration from = edges_[first].from, to = endOf(last);
   length += space_.distance(from, by) + space_.distance(by, to);
   if (length > longest_) return false;
+  const double enough = std::min(share + kLeastGain, kAlmost);
   std::vector<Edge> edges;
   for (const auto& [a, b] : {std::pair(from, by), std::pair(by, to)}) {
     if (stop_()) return false;
-    edges.push_back(measured(a, b));
+    edges.push_back(measured(a, b, enough));
     Edge& edge = edges.back();
     edge.changed = true;
     if (edge.kept) continue;
-    if (edge.worst.share < std::min(share + kLeastGain, kAlmost)) return false;
+    if (edge.worst.share < enough) return false;
     if (!free_.isFree(a, b)) return false;
   }
   const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(first);
