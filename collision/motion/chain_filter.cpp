@@ -282,8 +282,8 @@ bool setErrors(const ChainTables& tables, std::span<const JointMotion> motions, 
 }  // namespace
 
 void ChainFilter::pairsLeft(std::span<const JointMotion> motions, const MotionOptions& options,
-                            Scratch& scratch, std::vector<std::uint32_t>& left,
-                            TouchTest* test) const {
+                            Scratch& scratch, std::vector<std::uint32_t>& left, TouchTest* test,
+                            std::span<const std::uint8_t> proved) const {
   ChainScratch& memory = *scratch.memory_;
   ChainEdge& edge = memory.edge;
   left.clear();
@@ -313,6 +313,7 @@ void ChainFilter::pairsLeft(std::span<const JointMotion> motions, const MotionOp
   const double beyond = std::max(options.clearanceSlack, options.tolerance) + options.tolerance;
   edge.margins.resize(pairs.size());
   edge.largestMargin = 0;
+  edge.proved = proved;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     edge.margins[i] = upToFloat(roundedUp(options.marginOf(pairs[i].number) + beyond));
     edge.largestMargin = std::max(edge.largestMargin, edge.margins[i]);

@@ -60,7 +60,8 @@ class PairOfHulls {
 
   HullsAnswer decideIn(int set, TouchTest* test) {
     unsigned open = scratch_.open[number_][static_cast<std::size_t>(set)];
-    // The direction that separated the hulls in the intervals before.
+    // The direction that separated the hulls in the intervals before, or else a guess.
+    if (open && direction_.isZero(0)) direction_ = guess(set, middleOf(open));
     if (open && !direction_.isZero(0)) open &= ~separated(set);
     for (int i = 0; open && i < kDirections; ++i) {
       const int lane = middleOf(open);
@@ -97,6 +98,29 @@ class PairOfHulls {
     return found;
   }
 
+  /// Returns the direction from a to the middle of b's ball, from the nearest point of an obstacle.
+  Vec3 guess(int set, int lane) const {
+    const Vec3 center = poseInLane(tables_, scratch_, b_.joint, set, lane) * (b_.X_JB * b_.center);
+    Vec3 direction;
+    if (pair_.isWorld) {
+      const ChainScene::Obstacle& o = tables_.scene.obstacles[pair_.a];
+      Vec3 local = o.X_WO.m.transpose() * (center - o.X_WO.t);
+      if (o.isCylinder) {
+        const double rho = std::hypot(local[0], local[1]);
+        local.head<2>() *= std::max(rho - o.half[0], 0.0) / std::max(rho, 1e-20);
+        local[2] -= std::clamp(local[2], -o.half[2], o.half[2]);
+      } else {
+        local -= local.cwiseMax(-o.half).cwiseMin(o.half);
+      }
+      direction = o.X_WO.m * local;
+    } else {
+      const ChainScene::Link& a = tables_.scene.links[pair_.a];
+      const Transform X_WJ = poseInLane(tables_, scratch_, jointA_, set, lane);
+      direction = X_WJ.m.transpose() * (center - X_WJ * (a.X_JB * a.center));
+    }
+    const double length = direction.norm();
+    return length > 0 ? Vec3(direction / length) : Vec3(Vec3::Zero());
+  }
   static int middleOf(unsigned lanes) {
     for (int skip = std::popcount(lanes) / 2; skip > 0; --skip) lanes &= lanes - 1;
     return std::countr_zero(lanes);

@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -11,10 +9,13 @@
 #include "collision/core/error.h"
 #include "collision/core/file_cache.h"
 #include "collision/core/spelling.h"
-#include "collision/hierarchy/body.h"
 #include "planner/app/commands.h"
 #include "planner/app/output.h"
 #include "planner/app/robot_argument.h"
+#include "planner/checker/checker.h"
+#include "planner/checker/pair_grids.h"
+#include "planner/model/model_builder.h"
+#include "planner/problem/assembly.h"
 #include "planner/problem/problem.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/user_cache.h"
@@ -23,26 +24,32 @@
 namespace corridor::app {
 namespace {
 
-using Meshes = std::set<std::shared_ptr<const MeshFile>>;
-
-void addMeshes(const std::vector<PlacedShape>& shapes, Meshes& meshes) {
-  for (const PlacedShape& shape : shapes)
-    if (shape.mesh) meshes.insert(shape.mesh);
-}
-
-/// Adds the meshes of a robot or a problem.
-void addMeshesOf(const std::string& file, const std::shared_ptr<FileCache>& cache, Meshes& meshes) {
+/// Returns the model of a robot or a problem, with the cache.
+Model modelOf(const std::string& file, const std::shared_ptr<FileCache>& cache) {
   const std::string inFolder = robotInFolder(file);
   const std::string extension = lowered(std::filesystem::path(file).extension().string());
   const bool isYaml = extension == ".yaml" || extension == ".yml";
-  if (!inFolder.empty() || (isYaml ? isRobotFile(file) : isUrdf(file))) {
-    const RobotSetup setup =
-        readRobotAlone(inFolder.empty() ? file : inFolder, RobotUse::describe, cache.get());
-    for (const LinkModel& link : setup.robot.description.links) addMeshes(link.shapes, meshes);
-    return;
+  if (inFolder.empty() && !(isYaml ? isRobotFile(file) : isUrdf(file)))
+    return readProblemOf(file, cache).model;
+  ModelBuilder builder;
+  Source ignored;
+  addRobots({readRobotAlone(inFolder.empty() ? file : inFolder, RobotUse::describe, cache.get())},
+            builder, ignored);
+  Model model = builder.buildForReader();
+  model.cache = cache;
+  return model;
+}
+
+/// Builds the trees and hulls of large meshes that the cache does not have, and the grids of pairs
+/// of links.
+void fill(const Model& model) {
+  const Checker checker(model);
+  for (const Scene::Placed& placed : checker.scene().bodies()) {
+    if (!placed.body.isMesh()) continue;
+    placed.body.tree();
+    placed.body.hull();
   }
-  const Problem problem = readProblemOf(file, cache);
-  for (const ModelBody& body : problem.model.bodies) addMeshes(body.shapes, meshes);
+  PairGrids::compute(model, checker.scene());
 }
 
 std::string megabytes(std::uint64_t bytes) {
@@ -72,20 +79,14 @@ void show() {
 
 void build(const std::vector<std::string>& files) {
   const auto cache = requireCache();
-  Meshes meshes;
-  for (const std::string& file : files) addMeshesOf(file, cache, meshes);
-  for (const auto& mesh : meshes) {
-    const Body body("mesh", {mesh, &mesh->mesh}, false, {}, cache);
-    body.tree();
-    body.hull();
-  }
+  for (const std::string& file : files) fill(modelOf(file, cache));
   cache->save();
   if (const std::string why = cache->complaint(); !why.empty())
     throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
   const FileCache::Counts counts = cache->counts();
-  std::cout << grouped(meshes.size()) << (meshes.size() == 1 ? " mesh: " : " meshes: ")
-            << grouped(counts.found) << " results were in the cache, " << grouped(counts.written)
-            << " were added\n";
+  std::cout << grouped(counts.found) << (counts.found == 1 ? " result was" : " results were")
+            << " in the cache, " << grouped(counts.written)
+            << (counts.written == 1 ? " was" : " were") << " added\n";
 }
 
 }  // namespace

@@ -143,8 +143,8 @@ std::unique_ptr<const EdgeFilter> EdgeFilter::make(const Model& model, const Sce
     filter.pairs.push_back({isObstacle[a] != 0, number[a], number[b], k, !inVain});
   }
   if (!ChainFilter::isUsable(filter)) return nullptr;
-  return std::unique_ptr<const EdgeFilter>(
-      new EdgeFilter(std::move(joints->moving), ChainFilter(std::move(filter))));
+  return std::unique_ptr<const EdgeFilter>(new EdgeFilter(
+      std::move(joints->moving), PairGrids(model, scene, tube), ChainFilter(std::move(filter))));
 }
 
 EdgeFilter::Workspace::Workspace(const EdgeFilter* filter) {
@@ -170,7 +170,10 @@ bool EdgeFilter::prove(const Configuration& from, const Configuration& to,
     m.rotationError = joint.rotationError();
     m.shiftError = joint.shiftError();
   }
-  filter_.pairsLeft(workspace.motions_, options, workspace.scratch_, workspace.left, test);
+  // A pair has the same number in the scene and in the filter.
+  if (!grids_.empty()) grids_.prove(from, to, options, workspace.proved_);
+  filter_.pairsLeft(workspace.motions_, options, workspace.scratch_, workspace.left, test,
+                    workspace.proved_);
   return true;
 }
 

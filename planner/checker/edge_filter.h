@@ -5,13 +5,15 @@
 
 #include "collision/motion/chain_filter.h"
 #include "collision/world/scene.h"
+#include "planner/checker/pair_grids.h"
 #include "planner/model/model.h"
 #include "planner/robot/moving_joint.h"
 
 namespace corridor {
 
 /// Proves most pairs of bodies of a model apart on an edge, before the checker tests the others by
-/// their trees (collision/motion/chain_filter.h). For models whose planned joints are revolute or
+/// their trees: by grids, if the model's cache has them (pair_grids.h), then by balls and hulls
+/// (collision/motion/chain_filter.h). For models whose planned joints are revolute or
 /// prismatic: arms. The object does not change after construction, so threads may share it.
 class EdgeFilter {
  public:
@@ -31,6 +33,7 @@ class EdgeFilter {
     friend class EdgeFilter;
     std::vector<MovingJoint> joints_;
     std::vector<JointMotion> motions_;
+    std::vector<std::uint8_t> proved_;  // by grids
     ChainFilter::Scratch scratch_;
   };
 
@@ -42,10 +45,11 @@ class EdgeFilter {
              Workspace& workspace, TouchTest* test) const;
 
  private:
-  EdgeFilter(std::vector<MovingJoint> joints, ChainFilter filter)
-      : joints_(std::move(joints)), filter_(std::move(filter)) {}
+  EdgeFilter(std::vector<MovingJoint> joints, PairGrids grids, ChainFilter filter)
+      : joints_(std::move(joints)), grids_(std::move(grids)), filter_(std::move(filter)) {}
 
   std::vector<MovingJoint> joints_;
+  PairGrids grids_;
   ChainFilter filter_;
 };
 

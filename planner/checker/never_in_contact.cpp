@@ -1,120 +1,22 @@
 #include "planner/checker/never_in_contact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numbers>
-#include <optional>
 #include <stdexcept>
 
 #include "collision/core/rounding.h"
 #include "collision/motion/certify_motion.h"
 #include "collision/queries/surface_distance.h"
+#include "planner/checker/chain_between.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor {
 namespace {
 
 using Verdict = NeverInContactResult::Verdict;
-
-/// Returns the frames from `f` upwards to its ancestor `top`. The result excludes `top`.
-std::vector<std::size_t> upTo(const KinematicTree& tree, std::size_t f, std::size_t top) {
-  std::vector<std::size_t> frames;
-  for (; f != top; f = tree.frames[f].parent) frames.push_back(f);
-  return frames;
-}
-
-struct VariableRange {
-  double lower = 0, upper = 0;
-};
-
-/// Returns the values of a variable that a proof must cover, or nullopt if they are not bounded.
-/// @param wholeTurns whether every joint that the variable moves returns to the same pose after a
-/// full turn of the variable.
-/// @param beyond how far the proof must reach beyond each limit, rad or m.
-std::optional<VariableRange> rangeOf(const ConfigurationSpace& space, std::size_t variable,
-                                     bool wholeTurns, double beyond) {
-  const auto found =
-      std::find_if(space.coordinates().begin(), space.coordinates().end(),
-                   [&](const Coordinate& c) { return c.first == variable && c.size() == 1; });
-  if (found == space.coordinates().end()) return std::nullopt;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const bool circle = found->kind == Coordinate::Kind::circle;
-  // The next double above π: the interval covers the whole circle in real arithmetic.
-  const double pi = std::nextafter(std::numbers::pi, 4);
-  if (wholeTurns && (circle || !(found->upper - found->lower < 2 * pi)))
-    return VariableRange{-pi, pi};
-  if (circle || !(std::isfinite(found->lower) && std::isfinite(found->upper))) return std::nullopt;
-  if (beyond == 0) return VariableRange{found->lower, found->upper};
-  return VariableRange{std::nextafter(found->lower - beyond, -infinity),
-                       std::nextafter(found->upper + beyond, infinity)};
-}
-
-/// The frames between two bodies, as a separate tree. Its root is the lowest common ancestor of the
-/// two bodies' frames. All its coordinates have the kind `line`, and are numbered in the order
-/// of their first use.
-struct ChainBetween {
-  KinematicTree tree;
-  ConfigurationSpace space;
-  Scene::FramePair pair;
-  std::vector<std::size_t> variables;  // of the moving frames, in order from a to b
-  std::vector<VariableRange> box;      // for each variable
-};
-
-/// Returns the chain between frames a and b of a model, or nullopt if the proof can't be tried.
-std::optional<ChainBetween> framesBetween(const Model& model, std::size_t a, std::size_t b,
-                                          double beyond) {
-  ChainBetween between;
-  const std::vector<Frame>& frames = model.tree.frames;
-  const std::size_t top = model.tree.commonAncestor(a, b);
-  const std::vector<std::size_t> toA = upTo(model.tree, a, top), toB = upTo(model.tree, b, top);
-  std::vector<std::size_t> given;  // for each variable of the chain: the same variable in the model
-  // Adds the frames of a path, which is given from its lowest frame upwards. Returns the new index
-  // of the lowest frame.
-  const auto add = [&](const std::vector<std::size_t>& path) {
-    std::size_t last = 0;
-    for (auto f = path.rbegin(); f != path.rend(); ++f) {
-      Frame frame = frames[*f];
-      frame.parent = last;
-      if (frame.moves()) {
-        auto known = std::find(given.begin(), given.end(), frame.variable);
-        if (known == given.end()) known = given.insert(known, frame.variable);
-        frame.variable = static_cast<std::size_t>(known - given.begin());
-      }
-      last = between.tree.add(std::move(frame));
-    }
-    return last;
-  };
-  between.pair.a = add(toA);
-  const std::size_t branch = between.tree.frames.size();
-  between.pair.b = add(toB);
-  if (given.empty()) return std::nullopt;
-  std::vector<char> wholeTurns(given.size(), true);
-  for (const Frame& frame : between.tree.frames) {
-    if (!frame.moves()) continue;
-    if (frame.joint != Frame::Joint::revolute && frame.joint != Frame::Joint::prismatic)
-      return std::nullopt;
-    if (frame.joint == Frame::Joint::prismatic || frame.multiplier != std::trunc(frame.multiplier))
-      wholeTurns[frame.variable] = false;
-  }
-  for (std::size_t v = 0; v < given.size(); ++v) {
-    const auto range = rangeOf(model.space, given[v], wholeTurns[v], beyond);
-    if (!range) return std::nullopt;
-    between.box.push_back(*range);
-    between.space.add({Coordinate::Kind::line, "", 0, range->lower, range->upper, false, 1});
-  }
-  // In the new tree, the frames of the first branch are in order from the root to a. So the path
-  // from a upwards is this branch in reverse.
-  for (std::size_t f = branch; f-- > 1;)
-    if (between.tree.frames[f].moves())
-      between.variables.push_back(between.tree.frames[f].variable);
-  for (std::size_t f = branch; f < between.tree.frames.size(); ++f)
-    if (between.tree.frames[f].moves())
-      between.variables.push_back(between.tree.frames[f].variable);
-  return between;
-}
+using VariableRange = ChainBetween::Range;
 
 /// A box of joint values that is not proved yet.
 struct Box {
@@ -271,7 +173,7 @@ NeverInContactResult NeverInContact::prove(std::size_t a, std::size_t b,
       throw std::invalid_argument(
           "NeverInContactOptions: margin and beyondLimits must be finite and not negative");
   const auto between =
-      framesBetween(model_, model_.bodies[a].frame, model_.bodies[b].frame, options.beyondLimits);
+      chainBetween(model_, model_.bodies[a].frame, model_.bodies[b].frame, options.beyondLimits);
   if (!between) return {};
   std::vector<MotionPair> pairs;
   for (std::size_t i = firstShape_[a]; i < firstShape_[a + 1]; ++i)
@@ -287,7 +189,7 @@ bool movesFreely(const Model& model, std::size_t a, std::size_t b) {
   const std::size_t first = model.bodies[a].frame, second = model.bodies[b].frame,
                     top = model.tree.commonAncestor(first, second);
   for (const std::size_t end : {first, second})
-    for (const std::size_t f : upTo(model.tree, end, top)) {
+    for (std::size_t f = end; f != top; f = model.tree.frames[f].parent) {
       const Frame& frame = model.tree.frames[f];
       if (frame.moves() &&
           (frame.joint == Frame::Joint::translation || frame.joint == Frame::Joint::rotation))

@@ -87,9 +87,9 @@ TEST_F(CacheCommand, BuildsShowsAndClears) {
       std::filesystem::remove(folder_ / "problem.yaml");
     }
     EXPECT_EQ(run("cache build " + std::string(file)).out,
-              "1 mesh: 0 results were in the cache, 3 were added\n");
+              "0 results were in the cache, 3 were added\n");
     EXPECT_EQ(run("cache build " + std::string(file)).out,
-              "1 mesh: 3 results were in the cache, 0 were added\n");
+              "3 results were in the cache, 0 were added\n");
     EXPECT_THAT(run("cache").out, testing::MatchesRegex("folder: " + cache_ +
                                                         "\nfiles: 3\nsize: [0-9.]+ MB of at most "
                                                         "[0-9.]+ MB\n"));
