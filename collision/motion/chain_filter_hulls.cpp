@@ -60,11 +60,13 @@ class PairOfHulls {
 
   HullsAnswer decideIn(int set, TouchTest* test) {
     unsigned open = scratch_.open[number_][static_cast<std::size_t>(set)];
+    if (open == 0) return HullsAnswer::apart;
+    int lane = middleOf(open);  // of all: a contact is most likely there
     // The direction that separated the hulls in the intervals before, or else a guess.
-    if (open && direction_.isZero(0)) direction_ = guess(set, middleOf(open));
-    if (open && !direction_.isZero(0)) open &= ~separated(set);
+    if (direction_.isZero(0)) direction_ = guess(set, lane);
+    if (!direction_.isZero(0)) open &= ~separated(set);
     for (int i = 0; open && i < kDirections; ++i) {
-      const int lane = middleOf(open);
+      if (!(open >> lane & 1)) lane = middleOf(open);
       const Transform X_AB = rigidInverse(poseInLane(tables_, scratch_, jointA_, set, lane)) *
                              poseInLane(tables_, scratch_, b_.joint, set, lane) * b_.X_JB;
       const gjk::Answer found = search(X_AB);

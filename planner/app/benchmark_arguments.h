@@ -21,6 +21,7 @@ struct BenchmarkArguments {
   std::optional<std::string> shard;  ///< "2/3"
   std::uint64_t jobs = 1;
   std::optional<std::string> output;
+  bool cache = false;  ///< whether runs find trees, hulls and grids in the user's cache
   bool resume = false, merge = false, json = false;
 };
 

@@ -19,6 +19,7 @@
 #include "planner/app/benchmark_output.h"
 #include "planner/app/benchmark_results.h"
 #include "planner/app/commands.h"
+#include "planner/app/fill_cache.h"
 #include "planner/app/interrupt.h"
 #include "planner/app/options.h"
 #include "planner/app/other_program.h"
@@ -140,6 +141,15 @@ Campaign campaignOf(const BenchmarkArguments& a) {
   if (a.time) campaign.time = a.time;
   if (a.shard) campaign.shard = readShard(*a.shard);
   campaign.limits.memory = a.memory.value_or(campaign.limits.memory);
+  if (!a.cache) return campaign;
+  const auto cache = requireCache();
+  for (Problem& problem : campaign.problems) {
+    problem.model.cache = cache;
+    fillCache(problem.model);
+  }
+  campaign.notes.emplace_back(
+      "Corridor's checkers find trees, hulls and grids of pairs of links in the cache, which was "
+      "filled before the runs (--cache)");
   return campaign;
 }
 
@@ -289,6 +299,11 @@ void addBenchmark(CLI::App& program, int& status) {
       ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
       ->group(runs);
   command
+      ->add_flag("--cache", a.cache,
+                 "fill the cache before the runs (`corridor cache`), so that Corridor's checkers "
+                 "find what they otherwise compute in each run")
+      ->group(runs);
+  command
       ->add_option("--shard", a.shard,
                    "K/N: make only shard K of N of the runs, for several machines without MPI; "
                    "--merge puts the shards together")
@@ -309,7 +324,7 @@ void addBenchmark(CLI::App& program, int& status) {
       "shards, or the same campaign with other seeds");
   merge->group(results);
   for (const char* option : {"--variants", "--planners", "--trajectories", "--runs", "--seed",
-                             "--time", "--memory", "--jobs", "--shard", "--resume"})
+                             "--time", "--memory", "--jobs", "--cache", "--shard", "--resume"})
     merge->excludes(std::string(option));
   addJson(*command, a.json, results);
   command->footer(

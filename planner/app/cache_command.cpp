@@ -10,10 +10,9 @@
 #include "collision/core/file_cache.h"
 #include "collision/core/spelling.h"
 #include "planner/app/commands.h"
+#include "planner/app/fill_cache.h"
 #include "planner/app/output.h"
 #include "planner/app/robot_argument.h"
-#include "planner/checker/checker.h"
-#include "planner/checker/pair_grids.h"
 #include "planner/model/model_builder.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/problem.h"
@@ -40,32 +39,8 @@ Model modelOf(const std::string& file, const std::shared_ptr<FileCache>& cache) 
   return model;
 }
 
-/// Builds the trees and hulls of large meshes that the cache does not have, and the grids of pairs
-/// of links.
-void fill(const Model& model) {
-  const Checker checker(model);
-  for (const Scene::Placed& placed : checker.scene().bodies()) {
-    if (!placed.body.isMesh()) continue;
-    placed.body.tree();
-    placed.body.hull();
-  }
-  PairGrids::compute(model, checker.scene());
-}
-
 std::string megabytes(std::uint64_t bytes) {
   return rounded(static_cast<double>(bytes) / 1e6) + " MB";
-}
-
-/// Returns the user's cache. @throws InputError if there is none, or it can't be used.
-std::shared_ptr<FileCache> requireCache() {
-  auto cache = userCache();
-  if (!cache)
-    throw InputError(Fault{"CORRIDOR_CACHE", 0,
-                           "there is no cache, since this variable is \"off\", or neither it nor "
-                           "XDG_CACHE_HOME nor HOME names a folder"});
-  if (const std::string why = cache->complaint(); !why.empty())
-    throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
-  return cache;
 }
 
 void show() {
@@ -79,8 +54,7 @@ void show() {
 
 void build(const std::vector<std::string>& files) {
   const auto cache = requireCache();
-  for (const std::string& file : files) fill(modelOf(file, cache));
-  cache->save();
+  for (const std::string& file : files) fillCache(modelOf(file, cache));
   if (const std::string why = cache->complaint(); !why.empty())
     throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
   const FileCache::Counts counts = cache->counts();

@@ -114,6 +114,19 @@ TEST_F(CacheCommand, BadInputIsOneLineAndExit2) {
   EXPECT_THAT(result.out, HasSubstr("note: the cache in " + cache_ + " is not used"));
 }
 
+TEST_F(CacheCommand, BenchmarksUseItOnRequest) {
+  const std::string arguments = "benchmark arm.yaml --variants certified --runs 1 --json";
+  const Result without = run(arguments);
+  EXPECT_THAT(without.out, testing::Not(HasSubstr("--cache")));
+  EXPECT_FALSE(std::filesystem::exists(cache_));
+  const Result with = run(arguments + " --cache");
+  EXPECT_EQ(with.status, 0) << with.err;
+  EXPECT_THAT(with.out, HasSubstr("filled before the runs (--cache)"));
+  EXPECT_EQ(files().size(), 2u) << "tree and hull";
+  cache_ = "off";
+  expectFaultThatBegins(arguments + " --cache", "CORRIDOR_CACHE: there is no cache");
+}
+
 TEST_F(CacheCommand, IsInTheUsersFolderByDefault) {
   const auto runIn = [&](const std::string& variables) {
     return run("cache", "unset CORRIDOR_CACHE XDG_CACHE_HOME; export " + variables + "; ");

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "collision/core/file_cache.h"
+#include "planner/model/model.h"
+
+namespace corridor::app {
+
+/// Returns the user's cache. @throws InputError if there is none, or it can't be used.
+std::shared_ptr<FileCache> requireCache();
+
+/// Builds the trees and hulls of large meshes, and the grids of pairs of links, that the model's
+/// cache does not have, and saves them there. @pre the model has a cache.
+void fillCache(const Model& model);
+
+}  // namespace corridor::app
