@@ -1,10 +1,10 @@
 # `cmake --install` installs the program, and the libraries of planner/ for find_package(corridor COMPONENTS planner).
 # That component has the targets corridor::planner, corridor::model and corridor::verify.
-foreach(name verify model planner)
+foreach(name verify model code planner)
   set_target_properties(corridor_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(corridor_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/corridor>)
 endforeach()
-install(TARGETS corridor_verify corridor_model corridor_planner EXPORT corridor_planner
+install(TARGETS corridor_verify corridor_model corridor_code corridor_planner EXPORT corridor_planner
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT corridor_planner NAMESPACE corridor:: FILE corridorPlannerTargets.cmake DESTINATION ${package_dir})
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/find_ompl.cmake DESTINATION ${package_dir})

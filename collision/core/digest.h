@@ -61,8 +61,4 @@ class Digester {
   std::unique_ptr<State> state_;
 };
 
-/// Returns the GNU build id of the program or library that contains Corridor's code, which the
-/// linker computes from its code and data; empty if it was linked without one.
-Bytes buildId();
-
 }  // namespace corridor

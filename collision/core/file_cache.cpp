@@ -10,7 +10,6 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "collision/core/error.h"
 #include "collision/core/whole_file.h"
 
 namespace corridor {
@@ -27,10 +26,15 @@ std::string reason(int error) {
 /// Returns why a folder must not be used, or "". A folder that does not exist may be used.
 std::string whyNotOwn(const std::filesystem::path& folder) {
   struct stat status {};
-  if (::stat(folder.c_str(), &status) != 0) return errno == ENOENT ? "" : reason(errno);
+  if (::stat(folder.c_str(), &status) != 0) {
+    if (errno != ENOENT) return reason(errno);
+    std::error_code none;
+    return std::filesystem::is_symlink(folder, none) ? "it is a link to nothing" : "";
+  }
   if (!S_ISDIR(status.st_mode)) return "it is not a folder";
   if (status.st_uid != ::geteuid()) return "it belongs to another user";
-  if (status.st_mode & (S_IWGRP | S_IWOTH)) return "other users may write to it";
+  if (status.st_mode & (S_IWGRP | S_IWOTH))
+    return "other users may write to it (chmod go-w changes that)";
   return "";
 }
 
@@ -49,22 +53,37 @@ struct CachedFile {
   std::filesystem::path file;
 };
 
-/// Returns the files of a cache, in any order. Removes drafts of programs that were killed.
-std::vector<CachedFile> filesIn(const std::filesystem::path& folder) {
+std::string quotedName(const std::filesystem::path& file) {
+  return '"' + file.filename().string() + '"';
+}
+
+/// Returns whether a name is one that a cache gives: of 32 hexadecimal digits.
+bool isNameOfKey(const std::filesystem::path& name) {
+  const std::string digits = name.stem().string();
+  return name.extension() == kExtension && digits.size() == 32 &&
+         digits.find_first_not_of("0123456789abcdef") == digits.npos;
+}
+
+/// Returns the files of a cache, in any order. Removes drafts of `tryWriteWhole` that are older
+/// than `age`: those of programs that were killed.
+std::vector<CachedFile> filesIn(const std::filesystem::path& folder,
+                                std::chrono::seconds age = std::chrono::hours(1)) {
   std::vector<CachedFile> files;
   std::error_code error;
   std::filesystem::directory_iterator each(folder, error);
   for (; !error && each != std::filesystem::directory_iterator(); each.increment(error)) {
     std::error_code gone;  // another program may have removed it
     if (!each->is_regular_file(gone)) continue;
+    const std::filesystem::path name = each->path().filename();
+    const bool isDraft = name.extension() == ".tmp" && name.string().starts_with(".corridor");
+    if (!isDraft && !isNameOfKey(name)) continue;
     const std::uint64_t bytes = each->file_size(gone);
     const auto time = each->last_write_time(gone);
-    const auto extension = each->path().extension();
     if (gone) continue;
-    // `writeWhole` renames its drafts within seconds.
-    if (extension == ".tmp" && Clock::now() - time > std::chrono::hours(1))
+    if (!isDraft)
+      files.push_back({time, bytes, each->path()});
+    else if (Clock::now() - time > age)
       std::filesystem::remove(each->path(), gone);
-    if (extension == kExtension) files.push_back({time, bytes, each->path()});
   }
   return files;
 }
@@ -92,21 +111,15 @@ void removeOldest(const std::filesystem::path& folder, std::uint64_t most) {
 
 }  // namespace
 
-FileCache::FileCache(std::filesystem::path folder, Use use, std::uint64_t mostBytes)
-    : folder_(std::move(folder)),
-      mostBytes_(mostBytes),
-      build_(buildId()),
-      keeps_(use == Use::readAndWrite) {
-  const std::string why =
-      build_.empty() ? "this program was linked without a build id" : whyNotOwn(folder_);
-  if (why.empty()) return;
-  build_ = {};
-  complain(why);
+FileCache::FileCache(std::filesystem::path folder, std::string code, std::uint64_t mostBytes)
+    : folder_(std::move(folder)), code_(std::move(code)), mostBytes_(mostBytes) {
+  if (const std::string why = whyNotOwn(folder_); !why.empty())
+    whyUnusable_ = "the cache in " + folder_.string() + " is not used: " + why;
 }
 
 Digest FileCache::key(std::string_view kind, std::span<const Bytes> inputs) const {
   Digester digester;
-  digester.add(build_).add(bytesOf(kind));
+  digester.add(bytesOf(code_)).add(bytesOf(kind));
   for (const Bytes input : inputs) digester.add(input);
   return digester.result();
 }
@@ -120,20 +133,24 @@ std::filesystem::path FileCache::fileOf(const Digest& key) const {
 }
 
 bool FileCache::find(const Digest& key, const std::function<void(CacheFileReader&)>& take) const {
-  if (build_.empty()) return false;
+  if (!whyUnusable_.empty()) return false;
   const std::filesystem::path file = fileOf(key);
   CacheFileReader reader(file, key);
   if (reader.exists()) take(reader);
-  const bool found = reader.isWhole();
+  const bool found = reader.isWhole(), damaged = !found && reader.exists();
+  std::error_code failure;
   if (found) touch(file);
+  // If another program has just replaced it, that file is lost: it is computed once more.
+  if (damaged) std::filesystem::remove(file, failure);
   const std::lock_guard lock(mutex_);
-  ++(found ? counts_.found : reader.exists() ? counts_.damaged : counts_.missed);
-  if (!found && reader.exists()) complaint_ = file.string() + " is damaged, and is not used";
+  ++(found ? counts_.found : damaged ? counts_.damaged : counts_.missed);
+  if (damaged) damaged_.add(quotedName(file));
+  if (failure) unremoved_.add(quotedName(file) + ": " + failure.message());
   return found;
 }
 
 void FileCache::offer(const Digest& key, Put put) {
-  if (build_.empty() || !keeps_) return;
+  if (!whyUnusable_.empty()) return;
   const std::lock_guard lock(mutex_);
   offered_.emplace_back(key, std::move(put));
 }
@@ -145,34 +162,36 @@ void FileCache::save() {
     offered.swap(offered_);
   }
   if (offered.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder_.parent_path(), error);
-  if (!error && ::mkdir(folder_.c_str(), S_IRWXU) != 0 && errno != EEXIST)
-    error = {errno, std::generic_category()};
-  if (error) return complain(error.message());
+  std::error_code noFolder;
+  std::filesystem::create_directories(folder_.parent_path(), noFolder);
+  if (!noFolder && ::mkdir(folder_.c_str(), S_IRWXU) != 0 && errno != EEXIST)
+    noFolder = {errno, std::generic_category()};
   for (const auto& [key, put] : offered) {
-    CacheFileWriter writer;
-    put(writer);
     const std::filesystem::path file = fileOf(key);
-    // `writeWhole` would write into a pipe or a device that has this name.
-    if (!std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
-    try {
-      writeWhole(file, writer.bytes(key));
-    } catch (const InputError& failure) {
-      return complain(failure.faults().front().text);
+    std::error_code failure = noFolder;
+    if (!failure) {
+      CacheFileWriter writer;
+      put(writer);
+      std::error_code none;
+      // What is no file is removed first: writing into a pipe would wait for a reader.
+      if (!std::filesystem::is_regular_file(file, none)) std::filesystem::remove(file, none);
+      failure =
+          tryWriteWhole(file, [bytes = writer.bytes(key)](std::ostream& out) { out << bytes; });
     }
     const std::lock_guard lock(mutex_);
-    ++counts_.written;
+    ++(failure ? counts_.failed : counts_.written);
+    if (failure) unwritten_.add((noFolder ? "" : quotedName(file) + ": ") + failure.message());
   }
   removeOldest(folder_, mostBytes_);
 }
 
 std::uint64_t FileCache::clear() {
   std::uint64_t removed = 0;
-  for (const CachedFile& each : filesIn(folder_)) {
-    std::error_code error;
-    if (std::filesystem::remove(each.file, error)) ++removed;
-    if (error) complain(error.message());
+  for (const CachedFile& each : filesIn(folder_, std::chrono::seconds(0))) {
+    std::error_code failure;
+    removed += std::filesystem::remove(each.file, failure);
+    const std::lock_guard lock(mutex_);
+    if (failure) unremoved_.add(quotedName(each.file) + ": " + failure.message());
   }
   return removed;
 }
@@ -182,14 +201,21 @@ FileCache::Size FileCache::size() const {
   return {files.size(), sumOf(files)};
 }
 
-void FileCache::complain(const std::string& why) const {
+std::vector<std::string> FileCache::takeNotes() {
   const std::lock_guard lock(mutex_);
-  complaint_ = "the cache in " + folder_.string() + " is not used: " + why;
-}
-
-std::string FileCache::complaint() const {
-  const std::lock_guard lock(mutex_);
-  return complaint_;
+  std::vector<std::string> notes;
+  if (!whyUnusable_.empty() && !std::exchange(saidUnusable_, true)) notes.push_back(whyUnusable_);
+  const auto note = [&](Events& events, const char* what) {
+    if (events.count > 0)
+      notes.push_back("in the cache " + folder_.string() + ", " + std::to_string(events.count) +
+                      (events.count == 1 ? " file " : " files ") + what +
+                      (events.count == 1 ? " (" : " (the first: ") + events.first + ")");
+    events = {};
+  };
+  note(damaged_, "had damaged contents, which are not used");
+  note(unremoved_, "could not be removed");
+  note(unwritten_, "could not be written");
+  return notes;
 }
 
 FileCache::Counts FileCache::counts() const {

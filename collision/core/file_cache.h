@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -18,28 +17,27 @@ namespace corridor {
 
 /// Results that take long to compute, kept in files for later programs: meshes as they were read,
 /// trees, hulls. Each file has one result. Its name is a digest of everything that the result
-/// depends on: all inputs, and the build of the program that computed it. So a result is never out
-/// of date; only nobody asks for it any more.
+/// depends on: all inputs, and the code that computed it. So a result is never out of date; only
+/// nobody asks for it any more.
 ///
-/// A file is used only if its checksum holds for all its bytes. A damaged file counts as none. A
-/// file appears in its folder as a whole, so many programs may use the folder at the same time.
-/// A checksum is no protection against files that somebody makes on purpose. So the folder must
-/// belong to the user, and nobody else may have the right to write to it.
+/// A file is used only if its checksum holds for all its bytes. A damaged file counts as none, and
+/// is removed. A file appears in its folder as a whole, so many programs may use the folder at the
+/// same time. A checksum is no protection against files that somebody makes on purpose. So the
+/// folder must belong to the user, and nobody else may have the right to write to it. Files that
+/// have other names than a cache gives stay as they are.
 ///
 /// Thread safety: all functions but `save` may be called from several threads at once.
 class FileCache {
  public:
-  /// Whether results are kept that are offered. If not, no `save` is needed.
-  enum class Use { readAndWrite, readOnly };
-
-  /// If the folder is not the user's alone, or the program has no build id, the cache finds and
-  /// keeps nothing, and `complaint` says why. A folder that does not exist is made by `save`.
+  /// A folder that does not exist is made by `save`. If the folder can't be used, the cache finds
+  /// and keeps nothing, and `whyUnusable` says why.
+  /// @param code identifies the code that computes the results, and how it was compiled.
   /// @param mostBytes `save` removes the files that were not used for longest, until all files of
   /// the cache together have at most this length.
-  explicit FileCache(std::filesystem::path folder, Use use = Use::readAndWrite,
-                     std::uint64_t mostBytes = std::uint64_t{1} << 30);
+  FileCache(std::filesystem::path folder, std::string code,
+            std::uint64_t mostBytes = 1'000'000'000);
 
-  /// Returns the key of a result, except for the build, which is added here.
+  /// Returns the key of a result, except for the code, which is added here.
   /// @param kind names the function that computes the result. @param inputs all that it depends on
   Digest key(std::string_view kind, std::span<const Bytes> inputs) const;
 
@@ -52,10 +50,11 @@ class FileCache {
   /// so it must own what it needs.
   void offer(const Digest& key, Put put);
   /// Writes what was offered since the last call. A program does this after its answer. What can't
-  /// be written is dropped, and `complaint` says why.
+  /// be written is dropped, with a note.
   void save();
 
-  /// Removes all files of the cache. Returns their number.
+  /// Removes all files of the cache. Returns their number. There is a note for those that can't be
+  /// removed.
   std::uint64_t clear();
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -64,26 +63,38 @@ class FileCache {
     std::uint64_t files = 0, bytes = 0;
   };
   Size size() const;
-  /// Returns why the cache, or a file of it, can't be used, or "". The text names it.
-  std::string complaint() const;
+
+  /// Returns why the folder can't be used, with its name, or "".
+  const std::string& whyUnusable() const { return whyUnusable_; }
+  /// Returns what users should know since the last call, each in a sentence: that the cache can't
+  /// be used, that files were damaged, could not be written, or could not be removed.
+  std::vector<std::string> takeNotes();
 
   struct Counts {
-    std::uint64_t found = 0, missed = 0, damaged = 0, written = 0;
+    std::uint64_t found = 0, missed = 0, damaged = 0, written = 0, failed = 0;
   };
   Counts counts() const;
 
  private:
+  /// What happened since the last `takeNotes`: how often, and the file of the first time.
+  struct Events {
+    std::uint64_t count = 0;
+    std::string first;
+    void add(const std::string& text) {
+      if (++count == 1) first = text;
+    }
+  };
   std::filesystem::path fileOf(const Digest& key) const;
-  void complain(const std::string& why) const;
 
   std::filesystem::path folder_;
+  std::string code_;
   std::uint64_t mostBytes_;
-  Bytes build_;  // empty: the cache is not used
-  bool keeps_;
+  std::string whyUnusable_;
   mutable std::mutex mutex_;  // guards all that follows
   std::vector<std::pair<Digest, Put>> offered_;
   mutable Counts counts_;
-  mutable std::string complaint_;
+  mutable Events damaged_, unwritten_, unremoved_;
+  bool saidUnusable_ = false;
 };
 
 }  // namespace corridor

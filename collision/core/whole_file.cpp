@@ -60,7 +60,7 @@ int openToWrite(const std::filesystem::path& file) {
   return descriptor;
 }
 
-/// Writes to an open file, and closes it. @returns 0, or the system's error number (-1 if it gives
+/// Writes to an open file, and closes it. @returns 0, or the system's error number (EIO if it gives
 /// none).
 int writeTo(int descriptor, const std::function<void(std::ostream&)>& write) {
   if (descriptor < 0) return errno;
@@ -68,7 +68,7 @@ int writeTo(int descriptor, const std::function<void(std::ostream&)>& write) {
   __gnu_cxx::stdio_filebuf<char> buffer(descriptor, std::ios::out | std::ios::binary);
   std::ostream out(&buffer);
   write(out);
-  return out.flush() && buffer.close() ? 0 : errno != 0 ? errno : -1;
+  return out.flush() && buffer.close() ? 0 : errno != 0 ? errno : EIO;
 }
 
 /// A new file that is removed unless it is renamed. Its name can't be foreseen, and nothing that
@@ -94,7 +94,7 @@ class Draft {
   }
 
   /// Gives the file the mode of another one, if that exists, writes it, and gives it the other's
-  /// name. @returns 0, or the system's error number (-1 if it gives none).
+  /// name. @returns 0, or the system's error number.
   int replace(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
     if (failure_ != 0) return failure_;
     struct stat old {};
@@ -137,8 +137,8 @@ int standardStream(const std::filesystem::path& file) {
   return -1;
 }
 
-std::string helpFor(int failure) {
-  switch (failure) {
+std::string helpFor(const std::error_code& failure) {
+  switch (failure.value()) {
     case ENOSPC:
     case EDQUOT:
       return "; free some space, or name another file";
@@ -155,8 +155,8 @@ std::string helpFor(int failure) {
 
 }  // namespace
 
-void writeWhole(const std::filesystem::path& file,
-                const std::function<void(std::ostream&)>& write) {
+std::error_code tryWriteWhole(const std::filesystem::path& file,
+                              const std::function<void(std::ostream&)>& write) {
   std::error_code ignored;
   int failure = 0;
   // Renaming a file over a device or a pipe would replace it.
@@ -174,12 +174,14 @@ void writeWhole(const std::filesystem::path& file,
                   ? ELOOP
                   : Draft(target.parent_path()).replace(target, write);
   }
-  if (failure != 0)
+  return {failure, std::generic_category()};
+}
+
+void writeWhole(const std::filesystem::path& file,
+                const std::function<void(std::ostream&)>& write) {
+  if (const std::error_code failure = tryWriteWhole(file, write))
     throw InputError(
-        Fault{file.string(), 0,
-              "can't be written" +
-                  (failure > 0 ? ": " + std::generic_category().message(failure) + helpFor(failure)
-                               : std::string())});
+        Fault{file.string(), 0, "can't be written: " + failure.message() + helpFor(failure)});
 }
 
 void writeWhole(const std::filesystem::path& file, const std::string& text) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <system_error>
 
 namespace corridor {
 
@@ -16,5 +17,10 @@ namespace corridor {
 /// @throws InputError with the system's reason if the file can't be written.
 void writeWhole(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 void writeWhole(const std::filesystem::path& file, const std::string& text);
+
+/// Does the same, but returns the system's error instead of throwing. @returns no error: the file
+/// is written.
+std::error_code tryWriteWhole(const std::filesystem::path& file,
+                              const std::function<void(std::ostream&)>& write);
 
 }  // namespace corridor

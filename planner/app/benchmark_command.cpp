@@ -141,6 +141,7 @@ Campaign campaignOf(const BenchmarkArguments& a) {
   if (a.time) campaign.time = a.time;
   if (a.shard) campaign.shard = readShard(*a.shard);
   campaign.limits.memory = a.memory.value_or(campaign.limits.memory);
+  campaign.cache = a.cache;
   if (!a.cache) return campaign;
   const auto cache = requireCache();
   for (Problem& problem : campaign.problems) {

@@ -1,4 +1,5 @@
-#include <filesystem>
+#include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -6,19 +7,19 @@
 
 #include <CLI/CLI.hpp>
 
-#include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "collision/core/file_cache.h"
-#include "collision/core/spelling.h"
+#include "collision/core/read_file.h"
 #include "planner/app/commands.h"
 #include "planner/app/fill_cache.h"
 #include "planner/app/output.h"
+#include "planner/app/problem_list.h"
 #include "planner/app/robot_argument.h"
 #include "planner/model/model_builder.h"
 #include "planner/problem/assembly.h"
 #include "planner/problem/problem.h"
 #include "planner/problem/robot_file.h"
 #include "planner/problem/user_cache.h"
-#include "planner/robot/urdf_file.h"
 
 namespace corridor::app {
 namespace {
@@ -26,10 +27,10 @@ namespace {
 /// Returns the model of a robot or a problem, with the cache.
 Model modelOf(const std::string& file, const std::shared_ptr<FileCache>& cache) {
   const std::string inFolder = robotInFolder(file);
-  const std::string extension = lowered(std::filesystem::path(file).extension().string());
-  const bool isYaml = extension == ".yaml" || extension == ".yml";
-  if (inFolder.empty() && !(isYaml ? isRobotFile(file) : isUrdf(file)))
-    return readProblemOf(file, cache).model;
+  const InputKind kind = inFolder.empty() ? inputKindOf(file) : InputKind::robot;
+  if (kind == InputKind::mesh && whyNotOrdinaryFile(file).empty())
+    throw InputError(Fault{file, 0, "is neither a robot nor a problem; name one that uses it"});
+  if (kind != InputKind::robot) return readProblemOf(file, cache).model;
   ModelBuilder builder;
   Source ignored;
   addRobots({readRobotAlone(inFolder.empty() ? file : inFolder, RobotUse::describe, cache.get())},
@@ -39,8 +40,13 @@ Model modelOf(const std::string& file, const std::shared_ptr<FileCache>& cache) 
   return model;
 }
 
-std::string megabytes(std::uint64_t bytes) {
-  return rounded(static_cast<double>(bytes) / 1e6) + " MB";
+/// Returns a size with its unit: "12 kB".
+std::string sizeText(std::uint64_t bytes) {
+  const auto size = static_cast<double>(bytes);
+  return bytes < 1'000           ? counted(bytes, "byte")
+         : bytes < 1'000'000     ? rounded(size / 1e3) + " kB"
+         : bytes < 1'000'000'000 ? rounded(size / 1e6) + " MB"
+                                 : rounded(size / 1e9) + " GB";
 }
 
 void show() {
@@ -49,38 +55,57 @@ void show() {
   const ResultPrinter out(false);
   out.line("folder", cache->folder().string());
   out.line("files", grouped(size.files));
-  out.line("size", megabytes(size.bytes) + " of at most " + megabytes(cache->mostBytes()));
+  out.line("size", sizeText(size.bytes) + " of at most " + sizeText(cache->mostBytes()));
 }
 
 void build(const std::vector<std::string>& files) {
   const auto cache = requireCache();
-  for (const std::string& file : files) fillCache(modelOf(file, cache));
-  if (const std::string why = cache->complaint(); !why.empty())
-    throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
-  const FileCache::Counts counts = cache->counts();
-  std::cout << grouped(counts.found) << (counts.found == 1 ? " result was" : " results were")
-            << " in the cache, " << grouped(counts.written)
-            << (counts.written == 1 ? " was" : " were") << " added\n";
+  const ResultPrinter out(false);
+  FaultList faults;
+  for (const ListedProblem& each : listProblems(files).problems)
+    faults.collect([&] {
+      const auto start = std::chrono::steady_clock::now();
+      const std::uint64_t before = cache->counts().written;
+      fillCache(modelOf(each.file, cache));
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      const std::uint64_t added = cache->counts().written - before;
+      out.line(each.file,
+               added == 0 ? "nothing to add"
+                          : counted(added, "file") + " added in " + rounded(took.count()) + " s");
+      std::cout.flush();
+    });
+  printCacheNotes(cache->takeNotes());
+  faults.throwIfAny();
+}
+
+void clear() {
+  const auto cache = requireCache();
+  std::cout << counted(cache->clear(), "file") << " removed\n";
+  requireNoNotes(*cache);
 }
 
 }  // namespace
 
 void addCache(CLI::App& program, int& status) {
-  CLI::App* const command =
-      program.add_subcommand("cache", "show, fill or empty the cache of meshes, trees and hulls");
+  CLI::App* const command = program.add_subcommand(
+      "cache", "Show, fill or empty the cache: a folder with results on large meshes");
   command->footer(
-      "The cache is a folder of the user: $CORRIDOR_CACHE, $XDG_CACHE_HOME/corridor, or\n"
-      "~/.cache/corridor. CORRIDOR_CACHE=off turns it off. `solve` fills it after its answer.");
+      "The folder is $CORRIDOR_CACHE, $XDG_CACHE_HOME/corridor or ~/.cache/corridor.\n"
+      "CORRIDOR_CACHE=off turns the cache off. `solve` reads it, and adds to it after its answer.\n"
+      "planner/README.md says more.");
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* const builder = command->add_subcommand(
-      "build", "compute now what later commands need of the large meshes of robots and problems");
-  builder->add_option("FILE", *files, "a robot or a problem")->required();
+      "build", "Compute now what later commands need of the large meshes of robots and problems");
+  builder
+      ->add_option("ROBOT|PROBLEM", *files,
+                   "URDFs, robot.yaml files or folders of robots; or problems as for solve")
+      ->required();
   builder->callback([files, &status] {
     build(*files);
     status = kDone;
   });
-  command->add_subcommand("clear", "remove all files of the cache")->callback([&status] {
-    std::cout << counted(requireCache()->clear(), "file") << " removed\n";
+  command->add_subcommand("clear", "Remove all files of the cache")->callback([&status] {
+    clear();
     status = kDone;
   });
   command->callback([command, &status] {

@@ -1,8 +1,8 @@
 #include "planner/app/fill_cache.h"
 
-#include <string>
+#include <cstdlib>
 
-#include "collision/core/error.h"
+#include "collision/core/fault_list.h"
 #include "planner/checker/checker.h"
 #include "planner/checker/pair_grids.h"
 #include "planner/problem/user_cache.h"
@@ -12,11 +12,13 @@ namespace corridor::app {
 std::shared_ptr<FileCache> requireCache() {
   auto cache = userCache();
   if (!cache)
-    throw InputError(Fault{"CORRIDOR_CACHE", 0,
-                           "there is no cache, since this variable is \"off\", or neither it nor "
-                           "XDG_CACHE_HOME nor HOME names a folder"});
-  if (const std::string why = cache->complaint(); !why.empty())
-    throw InputError(Fault{"CORRIDOR_CACHE", 0, why});
+    throw InputError(Fault{
+        "corridor", 0,
+        std::getenv("CORRIDOR_CACHE")  // NOLINT(concurrency-mt-unsafe): only read
+            ? "there is no cache, since the variable CORRIDOR_CACHE turns it off"
+            : "there is no cache, since neither CORRIDOR_CACHE nor XDG_CACHE_HOME nor HOME names a "
+              "folder"});
+  if (!cache->whyUnusable().empty()) throw InputError(Fault{"corridor", 0, cache->whyUnusable()});
   return cache;
 }
 
@@ -28,7 +30,15 @@ void fillCache(const Model& model) {
     placed.body.hull();
   }
   PairGrids::compute(model, checker.scene());
+  const auto failed = model.cache->counts().failed;
   model.cache->save();
+  if (model.cache->counts().failed > failed) requireNoNotes(*model.cache);
+}
+
+void requireNoNotes(FileCache& cache) {
+  FaultList faults;
+  for (const std::string& note : cache.takeNotes()) faults.add("corridor", 0, note);
+  faults.throwIfAny();
 }
 
 }  // namespace corridor::app

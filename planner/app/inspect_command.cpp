@@ -135,15 +135,8 @@ int inspectMeshFile(const InspectArguments& a) {
 
 /// @param inFolder true if `a.file` is the robot that `robotInFolder` found.
 int inspectFile(const InspectArguments& a, bool inFolder) {
-  const std::string extension = lowered(std::filesystem::path(a.file).extension().string());
-  if (extension == ".srdf" && whyNotOrdinaryFile(a.file).empty())
-    throw InputError(Fault{a.file, 0,
-                           "is an SRDF, which only adds to a URDF; name the URDF, or a robot.yaml "
-                           "with the keys urdf and srdf"});
-  const bool yaml = extension == ".yaml" || extension == ".yml";
-  const bool robot = inFolder || (yaml ? isRobotFile(a.file) : isUrdf(a.file));
-  const bool problem = yaml || std::filesystem::is_directory(a.file) || extension == ".cfg" ||
-                       a.file.find(".json") != a.file.npos;
+  const InputKind is = inFolder ? InputKind::robot : inputKindOf(a.file);
+  const bool robot = is == InputKind::robot, problem = is == InputKind::problem;
   if (a.poses && !a.against)
     throw InputError(Fault{"--poses", 0, "needs --against, which is not given"});
   if (a.against) {

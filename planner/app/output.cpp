@@ -141,10 +141,13 @@ Problem readProblemOf(const std::string& file, std::shared_ptr<FileCache> cache)
 void saveCache(FileCache* cache, bool quiet) {
   if (!cache) return;
   std::cout.flush();
-  const std::string before = cache->complaint();
   cache->save();
-  if (!quiet && cache->complaint() != before)
-    std::cerr << "corridor: note: " << cache->complaint() << '\n';
+  if (!quiet) printCacheNotes(cache->takeNotes());
+}
+
+void printCacheNotes(const std::vector<std::string>& notes) {
+  for (const std::string& note : condensed(notes, ""))
+    std::cerr << "corridor: note: " << withoutControls(note) << '\n';
 }
 
 Verified verifyWithWarning(const Problem& problem, const Solution& solution,

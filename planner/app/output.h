@@ -65,9 +65,10 @@ void warn(const std::string& text);
 /// @param cache see `readProblem`.
 Problem readProblemOf(const std::string& file, std::shared_ptr<FileCache> cache = nullptr);
 
-/// Writes what a cache was offered. A command does this after it has given its answer. Prints a
-/// note on stderr if something can't be written, unless `quiet` is set. @param cache may be null
+/// Writes what a cache was offered. A command does this after it has given its answer. Prints the
+/// cache's notes on stderr, unless `quiet` is set. @param cache may be null
 void saveCache(FileCache* cache, bool quiet);
+void printCacheNotes(const std::vector<std::string>& notes);
 
 struct Verified {
   VerifyReport report;

@@ -8,8 +8,23 @@
 #include "collision/core/read_file.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/yaml_value.h"
+#include "planner/robot/urdf_file.h"
 
 namespace corridor::app {
+
+InputKind inputKindOf(const std::string& file) {
+  const std::string extension = lowered(std::filesystem::path(file).extension().string());
+  if (extension == ".srdf" && whyNotOrdinaryFile(file).empty())
+    throw InputError(Fault{file, 0,
+                           "is an SRDF, which only adds to a URDF; name the URDF, or a robot.yaml "
+                           "with the keys urdf and srdf"});
+  const bool yaml = extension == ".yaml" || extension == ".yml";
+  if (yaml ? isRobotFile(file) : isUrdf(file)) return InputKind::robot;
+  std::error_code none;
+  const bool problem = yaml || std::filesystem::is_directory(file, none) || extension == ".cfg" ||
+                       file.find(".json") != file.npos;
+  return problem ? InputKind::problem : InputKind::mesh;
+}
 
 bool isRobotFile(const std::string& file) {
   std::error_code none;

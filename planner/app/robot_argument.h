@@ -5,6 +5,13 @@
 
 namespace corridor::app {
 
+/// What a command can be given.
+enum class InputKind { robot, problem, mesh };
+
+/// Returns what a file or folder is. @param file not a folder of a robot (`robotInFolder`).
+/// @throws InputError for an SRDF, or if a YAML file can't be read.
+InputKind inputKindOf(const std::string& file);
+
 /// Returns whether a file is a `robot.yaml`. @throws InputError if it can't be read as YAML.
 bool isRobotFile(const std::string& file);
 

@@ -35,7 +35,10 @@ using nlohmann::ordered_json;
 /// Solves one problem, and prints the report on it. @returns the exit status.
 int solveSingle(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
-  const Solved solved = solveOne(file, a, interrupted);
+  Solved solved = solveOne(file, a, interrupted);
+  if (const auto& cache = solved.problem.model.cache)
+    for (const std::string& note : cache->takeNotes())
+      solved.problem.source.notes.push_back({note, NoteWeight::detail});
   if (a.jsonLines && !a.quiet)
     std::cout << jsonText(jsonOf(solved, file), -1) << '\n';
   else if (a.json && !a.quiet)

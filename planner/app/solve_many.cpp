@@ -35,6 +35,7 @@ constexpr int kPollMs = 200;
 
 constexpr const char* kBadInputResult = "bad input";
 constexpr const char* kFailedResult = "failed";
+constexpr const char* kCacheNotes = "cache_notes";  // in a child's report
 
 /// Returns the name of a problem's solution in a folder. Input files are unlikely to have this
 /// name.
@@ -105,8 +106,10 @@ ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a
         send("writes");
       });
       report = jsonOf(solved, problem.file);
-      // Now, because the parent ends this process after its last message.
-      saveCache(solved.problem.model.cache.get(), a.quiet);
+      if (const auto& cache = solved.problem.model.cache) {
+        cache->save();  // now, because the parent ends this process after its last message
+        for (const std::string& note : cache->takeNotes()) report[kCacheNotes].push_back(note);
+      }
       for (const Note& note : solved.problem.source.notes)
         if (note.weight == NoteWeight::coverage && !a.quiet)
           std::cerr << problem.name << ": note: " << note.text << '\n';
@@ -120,9 +123,21 @@ ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a
 }
 
 /// Returns the report on a problem, made from the end of its child process.
-ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end) {
-  if (end.messages.size() == 2) return ordered_json::parse(end.messages.back());
-  return {{"problem", problem.file}, {"result", kFailedResult}, {"why", end.failure}};
+/// @param cacheNotes gets the child's notes on the cache, too: they are printed once for all.
+ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end,
+                      std::vector<std::string>& cacheNotes) {
+  if (end.messages.size() != 2)
+    return {{"problem", problem.file}, {"result", kFailedResult}, {"why", end.failure}};
+  ordered_json report = ordered_json::parse(end.messages.back());
+  if (const auto notes = report.find(kCacheNotes); notes != report.end()) {
+    const ordered_json own = *notes;
+    report.erase(notes);
+    for (const ordered_json& note : own) {
+      cacheNotes.push_back(note);
+      report["notes"].push_back(note);
+    }
+  }
+  return report;
 }
 
 /// Solves the problems until all are done, or until an interrupt.
@@ -255,8 +270,9 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
   int status = kDone;
   std::size_t done = 0;
   std::vector<ordered_json> reports(problems.size());  // a null report: the problem is not done
+  std::vector<std::string> cacheNotes;
   solveAll(problems.size(), executor, interrupted, [&](std::size_t i, const ChildEnd& end) {
-    const ordered_json& report = reports[i] = reportOf(problems[i], end);
+    const ordered_json& report = reports[i] = reportOf(problems[i], end, cacheNotes);
     ++done;
     status = std::max(status, statusOf(report));
     if (show) std::fputs("\r\033[K", stderr);
@@ -276,6 +292,7 @@ int solveMany(const std::vector<ListedProblem>& problems, const SolveArguments& 
     out.blank();
     printTable(reports, out);
   }
+  if (!a.quiet) printCacheNotes(cacheNotes);
   if (interrupted && !a.quiet)
     warn("interrupted: " + std::to_string(problems.size() - done) + " of " +
          counted(problems.size(), "problem") + " were not solved");

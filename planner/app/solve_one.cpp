@@ -158,8 +158,6 @@ Solved solveOne(const std::string& file, const SolveArguments& a,
   if (show) std::fputs("\r\033[K", stderr);
   for (const Fault& fault : report.warnings) warn(fault.str());
   addFirst(report.notes, problem.source.notes);
-  if (const auto& cache = problem.model.cache; cache && !cache->complaint().empty())
-    problem.source.notes.push_back({cache->complaint(), NoteWeight::detail});
   if (beforeWriting) beforeWriting();
   if (report.outcome == SolveOutcome::solved) writeFiles(a, problem, report, digest, from);
   return {std::move(problem), std::move(report), reading.count(), tries};

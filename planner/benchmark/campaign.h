@@ -43,6 +43,8 @@ struct Campaign {
   std::optional<Simplifier> simplify;     ///< unset: the problem's own setting
   /// Whether every path is verified. If false, nothing reports which paths are in collision.
   bool verify = true;
+  /// Whether the cache was filled before the runs (planner/problem/user_cache.h).
+  bool cache = false;
   CampaignTrajectories trajectories;  ///< made along each returned path; only with `verify`
   BenchmarkLimits limits;
   /// For error messages: the places where variants, planners and runs are set ("--planners",

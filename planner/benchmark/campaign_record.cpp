@@ -164,6 +164,7 @@ ordered_json recordOf(const Campaign& campaign) {
                     {"runs", campaign.runs},     {"memory_mb", campaign.limits.memory},
                     {"verify", campaign.verify}, {"notes", campaign.notes}};
   if (campaign.time) json["time"] = *campaign.time;
+  if (campaign.cache) json["cache"] = true;
   if (campaign.simplify) json["simplify"] = wordOf(*campaign.simplify);
   for (const char* list : {"problems", "variants", "planners"}) json[list] = ordered_json::array();
   for (std::size_t p = 0; p < campaign.problems.size(); ++p) {
@@ -187,6 +188,7 @@ Campaign campaignOfRecord(const ordered_json& json) {
   campaign.verify = json.at("verify");
   json.at("notes").get_to(campaign.notes);
   if (json.contains("time")) campaign.time = json["time"].get<double>();
+  campaign.cache = json.value("cache", false);
   campaign.simplify = simplifierIn(json);
   for (const ordered_json& problem : json.at("problems")) {
     campaign.problems.push_back(problemIn(problem));

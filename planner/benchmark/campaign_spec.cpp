@@ -44,11 +44,15 @@ std::string specOf(const Campaign& campaign, const CampaignCell& cell) {
     checker[entry.key] = entry.value.text;
   if (campaign.variants[cell.variant].competitor)
     checker["peer"] = campaign.variants[cell.variant].competitor->name;
-  nlohmann::ordered_json spec{
-      {"problem", campaign.digests[cell.problem]},     {"checker", checker},
-      {"planner", planned.settings.planner.name},      {"params", planned.settings.planner.params},
-      {"time", planned.settings.planner.time},         {"memory_mb", campaign.limits.memory},
-      {"simplify", wordOf(planned.settings.simplify)}, {"verify", campaign.verify}};
+  nlohmann::ordered_json spec{{"problem", campaign.digests[cell.problem]},
+                              {"checker", checker},
+                              {"planner", planned.settings.planner.name},
+                              {"params", planned.settings.planner.params},
+                              {"time", planned.settings.planner.time},
+                              {"memory_mb", campaign.limits.memory},
+                              {"simplify", wordOf(planned.settings.simplify)},
+                              {"verify", campaign.verify},
+                              {"cache", campaign.cache}};
   if (!campaign.trajectories.makers.empty()) {
     for (const TrajectoryMaker maker : campaign.trajectories.makers)
       spec["trajectories"].push_back(nameOf(maker));

@@ -18,10 +18,12 @@
 namespace corridor {
 namespace {
 
-/// Returns the frames between the bodies of a pair, if it may have a grid. A body inside a solid
-/// mesh is in contact, which a grid does not test.
+/// Returns the frames between the bodies of a pair, if it may have a grid. Two primitives are
+/// tested faster than a grid is looked up. A body inside a solid mesh is in contact, which a grid
+/// does not test.
 std::optional<ChainBetween> chainOf(const Model& model, const Scene& scene,
                                     const MotionPair& pair) {
+  if (!pair.a->isMesh() && !pair.b->isMesh()) return std::nullopt;
   if (pair.a->isSolidMesh() || pair.b->isSolidMesh()) return std::nullopt;
   for (const std::size_t body : {pair.bodyA, pair.bodyB})  // obstacles belong to one problem
     if (scene.bodies()[body].frame == 0 || scene.bodies()[body].restX_WF) return std::nullopt;

@@ -3,6 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <system_error>
+
+#include "collision/core/spelling.h"
 
 namespace corridor {
 namespace {
@@ -15,20 +18,24 @@ std::string valueOf(const char* variable) {
 
 }  // namespace
 
-std::shared_ptr<FileCache> userCache(FileCache::Use use) {
+std::shared_ptr<FileCache> userCache() {
   std::filesystem::path folder = valueOf("CORRIDOR_CACHE");
-  if (folder == "off") return nullptr;
+  const std::string word = lowered(folder.string());
+  if (word == "off" || word == "no" || word == "false" || word == "0") return nullptr;
+  std::error_code none;
   if (folder.empty()) {
     const std::filesystem::path caches = valueOf("XDG_CACHE_HOME"), home = valueOf("HOME");
     // The specification ignores relative paths.
     if (caches.is_absolute())
       folder = caches / "corridor";
-    else if (home.is_absolute())
+    else if (home.is_absolute() && std::filesystem::is_directory(home, none))
       folder = home / ".cache" / "corridor";
     else
       return nullptr;
   }
-  return std::make_shared<FileCache>(folder, use);
+  // A program may change its working directory.
+  const std::filesystem::path absolute = std::filesystem::absolute(folder, none);
+  return std::make_shared<FileCache>(none ? folder : absolute.lexically_normal(), codeDigest());
 }
 
 }  // namespace corridor

@@ -270,6 +270,8 @@ void bindProblem(py::module_& module) {
         // Only trees and hulls come from the cache. Meshes are read from their files, since a
         // script may also verify with this problem, and proofs must not depend on a cache.
         problem.model.cache = userCache();
+        if (problem.model.cache && !problem.model.cache->whyUnusable().empty())
+          problem.source.notes.push_back({problem.model.cache->whyUnusable(), NoteWeight::detail});
         return std::make_shared<NativeProblem>(std::move(problem));
       },
       py::arg("file"));

@@ -22,6 +22,9 @@ namespace corridor::test {
 namespace {
 
 using std::filesystem::path;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// A result of all kinds of pieces.
 struct Result {
@@ -83,35 +86,34 @@ class FileCacheTest : public testing::Test {
 };
 
 TEST_F(FileCacheTest, FindsInAnotherObjectWhatWasSaved) {
-  FileCache first(own_);
+  FileCache first(own_, "code");
   EXPECT_EQ(find(first, 1), std::nullopt);
   offer(first, 1);
   EXPECT_EQ(find(first, 1), std::nullopt) << "not saved yet";
   first.save();
   EXPECT_EQ(find(first, 1), resultOf(1));
-  const FileCache second(own_);
+  const FileCache second(own_, "code");
   EXPECT_EQ(find(second, 1), resultOf(1));
   EXPECT_EQ(find(second, 2), std::nullopt);
   EXPECT_EQ(second.counts().found, 1u);
   EXPECT_EQ(second.counts().missed, 1u);
   EXPECT_EQ(first.counts().written, 1u);
-  EXPECT_EQ(first.complaint() + second.complaint(), "");
+  EXPECT_THAT(first.takeNotes(), IsEmpty());
   EXPECT_EQ(std::filesystem::status(own_).permissions(), std::filesystem::perms::owner_all);
 }
 
-TEST_F(FileCacheTest, KeysDependOnKindAndInputs) {
-  const FileCache cache(own_);
+TEST_F(FileCacheTest, KeysDependOnCodeKindAndInputs) {
+  const FileCache cache(own_, "code");
   const std::uint32_t one = 1;
   const std::array<Bytes, 1> inputs = {bytesOf(one)};
+  EXPECT_EQ(cache.key("a", inputs), FileCache(folder_, "code").key("a", inputs));
+  EXPECT_NE(cache.key("a", inputs), FileCache(own_, "other").key("a", inputs));
   EXPECT_NE(cache.key("a", inputs), cache.key("b", inputs));
   EXPECT_NE(cache.key("a", inputs), cache.key("a", {}));
-  Digester withoutBuild;
-  EXPECT_NE(cache.key("a", inputs),
-            withoutBuild.add(bytesOf(std::string_view("a"))).add(inputs[0]).result());
 }
 
 TEST_F(FileCacheTest, NeverUsesAFileWithAFlippedByte) {
-  FileCache cache(own_);
+  FileCache cache(own_, "code");
   keep(cache, 1);
   const path file = files().at(0);
   const std::string bytes = contents(file);
@@ -124,13 +126,19 @@ TEST_F(FileCacheTest, NeverUsesAFileWithAFlippedByte) {
       EXPECT_EQ(find(cache, 1), std::nullopt) << "byte " << i;
     }
   EXPECT_EQ(cache.counts().damaged, 3 * bytes.size());
-  EXPECT_EQ(cache.complaint(), file.string() + " is damaged, and is not used");
-  keep(cache, 1);  // replaces the damaged file
+  EXPECT_FALSE(std::filesystem::exists(file)) << "a damaged file is removed";
+  EXPECT_THAT(
+      cache.takeNotes(),
+      ElementsAre("in the cache " + own_.string() + ", " + std::to_string(3 * bytes.size()) +
+                  " files had damaged contents, which are not used (the first: \"" +
+                  file.filename().string() + "\")"));
+  EXPECT_THAT(cache.takeNotes(), IsEmpty()) << "each note is given once";
+  keep(cache, 1);
   EXPECT_EQ(find(cache, 1), resultOf(1));
 }
 
 TEST_F(FileCacheTest, NeverUsesAFileOfAnotherLengthOrKey) {
-  FileCache cache(own_);
+  FileCache cache(own_, "code");
   keep(cache, 1);
   const path file = files().at(0);
   const std::string bytes = contents(file);
@@ -149,7 +157,7 @@ TEST_F(FileCacheTest, NeverUsesAFileOfAnotherLengthOrKey) {
 }
 
 TEST_F(FileCacheTest, AReaderThatAsksForOtherPiecesFindsNothing) {
-  FileCache cache(own_);
+  FileCache cache(own_, "code");
   keep(cache, 1);
   const auto asks = [&](const std::function<void(CacheFileReader&)>& take) {
     return cache.find(keyOf(cache, 1), take);
@@ -175,40 +183,58 @@ TEST_F(FileCacheTest, AReaderThatAsksForOtherPiecesFindsNothing) {
   })) << "there is no fifth piece";
 }
 
-TEST_F(FileCacheTest, ReadOnlyKeepsNothing) {
-  FileCache cache(own_, FileCache::Use::readOnly);
-  keep(cache, 1);
-  EXPECT_FALSE(std::filesystem::exists(own_));
-}
-
 TEST_F(FileCacheTest, DoesNotUseAFolderThatOthersMayWriteTo) {
-  FileCache(own_).save();
-  FileCache before(own_);
+  FileCache before(own_, "code");
   keep(before, 1);
   for (const mode_t mode : {0770, 0707}) {
     ASSERT_EQ(::chmod(own_.c_str(), mode), 0);
-    FileCache cache(own_);
-    EXPECT_EQ(cache.complaint(),
-              "the cache in " + own_.string() + " is not used: other users may write to it");
+    FileCache cache(own_, "code");
+    EXPECT_EQ(cache.whyUnusable(), "the cache in " + own_.string() +
+                                       " is not used: other users may write to it (chmod go-w "
+                                       "changes that)");
     EXPECT_EQ(find(cache, 1), std::nullopt);
     keep(cache, 2);
     EXPECT_EQ(files().size(), 1u);
+    EXPECT_THAT(cache.takeNotes(), ElementsAre(cache.whyUnusable()));
+    EXPECT_THAT(cache.takeNotes(), IsEmpty());
   }
   write(folder_ / "file", "x");
-  const FileCache none(folder_ / "file");
-  EXPECT_THAT(none.complaint(), testing::HasSubstr("it is not a folder"));
+  EXPECT_THAT(FileCache(folder_ / "file", "code").whyUnusable(), HasSubstr("it is not a folder"));
+  std::filesystem::create_symlink(folder_ / "nothing", folder_ / "link");
+  EXPECT_THAT(FileCache(folder_ / "link", "code").whyUnusable(), HasSubstr("a link to nothing"));
 }
 
 TEST_F(FileCacheTest, SaysWhyItCantBeWritten) {
-  write(folder_ / "caches", "a file in place of the folder");
-  FileCache cache(own_);
-  keep(cache, 1);
-  EXPECT_THAT(cache.complaint(), testing::HasSubstr("Not a directory"));
+  const path nowhere = "/proc/none/cache";  // nobody can make folders there
+  FileCache cache(nowhere, "code");
+  offer(cache, 1);
+  keep(cache, 2);
+  EXPECT_THAT(cache.takeNotes(),
+              ElementsAre("in the cache " + nowhere.string() +
+                          ", 2 files could not be written (the first: No such file or directory)"));
   EXPECT_EQ(cache.counts().written, 0u);
+  EXPECT_EQ(cache.counts().failed, 2u);
+}
+
+TEST_F(FileCacheTest, AFileThatCantBeWrittenDoesNotKeepOthersFromIt) {
+  FileCache cache(own_, "code");
+  keep(cache, 1);
+  const path file = files().at(0);
+  std::filesystem::remove(file);
+  std::filesystem::create_directories(file / "something");
+  EXPECT_EQ(find(cache, 1), std::nullopt);
+  EXPECT_THAT(cache.takeNotes(), testing::SizeIs(2)) << "damaged, and can't be removed";
+  offer(cache, 1);
+  keep(cache, 2);
+  EXPECT_EQ(find(cache, 2), resultOf(2));
+  EXPECT_THAT(cache.takeNotes(),
+              ElementsAre(testing::StartsWith("in the cache " + own_.string() +
+                                              ", 1 file could not be written (\"" +
+                                              file.filename().string() + "\": ")));
 }
 
 TEST_F(FileCacheTest, APipeInPlaceOfAFileIsNotWaitedFor) {
-  FileCache cache(own_);
+  FileCache cache(own_, "code");
   keep(cache, 1);
   const path file = files().at(0);
   std::filesystem::remove(file);
@@ -219,11 +245,11 @@ TEST_F(FileCacheTest, APipeInPlaceOfAFileIsNotWaitedFor) {
 }
 
 TEST_F(FileCacheTest, RemovesTheFilesThatWereNotUsedForLongest) {
-  FileCache cache(own_);
+  FileCache cache(own_, "code");
   keep(cache, 1);
   const auto size = std::filesystem::file_size(files().at(0));
   const auto fileOf = [&](std::uint32_t seed) {
-    FileCache other(folder_ / "other");
+    FileCache other(folder_ / "other", "code");
     keep(other, seed);
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / "other")) {
       const path found = own_ / entry.path().filename();
@@ -240,7 +266,13 @@ TEST_F(FileCacheTest, RemovesTheFilesThatWereNotUsedForLongest) {
   write(own_ / ".corridor1.tmp", "a draft of a program that was killed");
   std::filesystem::last_write_time(own_ / ".corridor1.tmp", longAgo);
   write(own_ / ".corridor2.tmp", "a draft of a program that runs");
-  FileCache small(own_, FileCache::Use::readAndWrite, 3 * size);
+  const std::vector<std::string> foreign = {"others.cache", "others.tmp",
+                                            "0123456789ABCDEF0123456789ABCDEF.cache"};
+  for (const std::string& name : foreign) {
+    write(own_ / name, std::string(10 * size, 'x'));
+    std::filesystem::last_write_time(own_ / name, longAgo - std::chrono::hours(24));
+  }
+  FileCache small(own_, "code", 3 * size);
   keep(small, 5);
   EXPECT_EQ(find(small, 3), std::nullopt);
   EXPECT_EQ(find(small, 2), std::nullopt);
@@ -251,6 +283,9 @@ TEST_F(FileCacheTest, RemovesTheFilesThatWereNotUsedForLongest) {
   EXPECT_EQ(small.size().bytes, 3 * size);
   EXPECT_EQ(small.clear(), 3u);
   EXPECT_EQ(small.size().files, 0u);
+  EXPECT_FALSE(std::filesystem::exists(own_ / ".corridor2.tmp"));
+  for (const std::string& name : foreign)
+    EXPECT_EQ(contents(own_ / name).size(), 10 * size) << "not a file of the cache";
 }
 
 // Many caches of one folder, as of many programs.
@@ -261,7 +296,7 @@ TEST_F(FileCacheTest, ManyWritersAndReadersNeverSeePartOfAFile) {
     threads.emplace_back([&, t] {
       std::mt19937 random(static_cast<unsigned>(t));
       for (int i = 0; i < 100 / kSlowdown + 10; ++i) {
-        FileCache cache(own_);
+        FileCache cache(own_, "code");
         const auto seed = static_cast<std::uint32_t>(random() % 4);
         if (const auto result = find(cache, seed)) {
           ++found;
@@ -269,7 +304,7 @@ TEST_F(FileCacheTest, ManyWritersAndReadersNeverSeePartOfAFile) {
         }
         wrong += static_cast<int>(cache.counts().damaged);
         keep(cache, seed);
-        wrong += !cache.complaint().empty();
+        wrong += !cache.takeNotes().empty();
       }
     });
   for (std::thread& thread : threads) thread.join();

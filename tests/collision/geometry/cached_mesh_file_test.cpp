@@ -28,7 +28,7 @@ class CachedMeshFile : public testing::Test {
       out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
     return folder_ / name;
   }
-  FileCache cache() const { return FileCache(folder_ / "cache"); }
+  FileCache cache() const { return FileCache(folder_ / "cache", "code"); }
 
   static void expectEqual(const MeshFile& a, const MeshFile& b) {
     EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);

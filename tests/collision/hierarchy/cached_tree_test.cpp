@@ -22,7 +22,7 @@ class CachedTree : public testing::Test {
  protected:
   ~CachedTree() override { std::filesystem::remove_all(folder_); }
 
-  FileCache cache() const { return FileCache(folder_ / "cache"); }
+  FileCache cache() const { return FileCache(folder_ / "cache", "code"); }
 
   /// Expects that the trees are the same bit for bit.
   static void expectEqual(const Obb4Tree& a, const Obb4Tree& b) {
@@ -97,7 +97,7 @@ TEST_F(CachedTree, EqualsTheHullThatIsComputed) {
 TEST_F(CachedTree, ABodyAsksTheCacheOnceAndOnlyForWhatIsNeeded) {
   const auto mesh = std::make_shared<const TriangleMesh>(cube_);
   for (const bool isFound : {false, true}) {
-    const auto kept = std::make_shared<FileCache>(folder_ / "cache");
+    const auto kept = std::make_shared<FileCache>(folder_ / "cache", "code");
     const Body body("cube", mesh, false, {}, kept);
     EXPECT_EQ(kept->counts().found + kept->counts().missed, 0u);
     body.tree();

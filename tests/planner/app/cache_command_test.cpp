@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/planner/app/program_fixtures.h"
 #include "tests/support/meshes.h"
@@ -61,12 +62,29 @@ TEST_F(CacheCommand, AnswersAreTheSameWithAnyCache) {
     std::ofstream(file, std::ios::binary) << damaged;
     const Result result = run("solve arm.yaml --seed 3 -o s.yaml");
     EXPECT_EQ(read("s.yaml"), without);
-    EXPECT_THAT(result.out, HasSubstr("note: " + file.string() + " is damaged, and is not used"));
+    EXPECT_THAT(result.out, HasSubstr("note: in the cache " + cache_ +
+                                      ", 1 file had damaged contents, which are not used (\"" +
+                                      file.filename().string() + "\")"));
     EXPECT_EQ(contents(file), bytes) << "it was written anew";
   }
-  ASSERT_EQ(run("cache clear").out, "3 files removed\n");
+}
+
+TEST_F(CacheCommand, SolvingManyProblemsFillsItAndPrintsItsNotesOnce) {
   EXPECT_EQ(run("solve arm.yaml arm.yaml --jobs 2 --seed 3").status, 0);
   EXPECT_EQ(files().size(), 3u) << "children write, too";
+  std::filesystem::permissions(cache_, std::filesystem::perms::others_write,
+                               std::filesystem::perm_options::add);
+  const Result result = run("solve arm.yaml arm.yaml --seed 3 --json");
+  EXPECT_EQ(result.status, 0);
+  const std::string note = "the cache in " + cache_ + " is not used: other users may write to it";
+  const auto first = result.err.find("corridor: note: " + note);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(result.err.find(note, first + note.size()), std::string::npos) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  for (const auto& report : json["problems"]) {
+    EXPECT_FALSE(report.contains("cache_notes"));
+    EXPECT_THAT(report["notes"].back().get<std::string>(), HasSubstr(note));
+  }
 }
 
 TEST_F(CacheCommand, VerifyDoesNotReadIt) {
@@ -81,34 +99,52 @@ TEST_F(CacheCommand, VerifyDoesNotReadIt) {
 }
 
 TEST_F(CacheCommand, BuildsShowsAndClears) {
-  for (const char* const file : {"arm.urdf", "arm.yaml", "."}) {
-    if (std::string(file) == ".") {
+  for (const std::string file : {"arm.urdf", "arm.yaml", "."}) {
+    if (file == ".") {
       write("robot.yaml", "format: corridor-robot-1\nurdf: arm.urdf\n");
       std::filesystem::remove(folder_ / "problem.yaml");
     }
-    EXPECT_EQ(run("cache build " + std::string(file)).out,
-              "0 results were in the cache, 3 were added\n");
-    EXPECT_EQ(run("cache build " + std::string(file)).out,
-              "3 results were in the cache, 0 were added\n");
-    EXPECT_THAT(run("cache").out, testing::MatchesRegex("folder: " + cache_ +
-                                                        "\nfiles: 3\nsize: [0-9.]+ MB of at most "
-                                                        "[0-9.]+ MB\n"));
+    EXPECT_THAT(run("cache build " + file).out,
+                testing::MatchesRegex(file + ": 3 files added in [0-9.]+ s\n"));
+    EXPECT_EQ(run("cache build " + file).out, file + ": nothing to add\n");
+    EXPECT_THAT(run("cache").out,
+                testing::MatchesRegex("folder: " + cache_ +
+                                      "\nfiles: 3\nsize: [0-9.]+ kB of at most 1 GB\n"));
     EXPECT_EQ(run("cache clear").out, "3 files removed\n");
   }
   EXPECT_EQ(run("cache clear").out, "0 files removed\n");
 }
 
+TEST_F(CacheCommand, BuildReplacesDamagedFilesAndGoesOnAfterAFault) {
+  run("cache build arm.urdf");
+  for (const auto& file : files()) {
+    std::ofstream(file, std::ios::binary) << "damaged";
+  }
+  const Result result = run("cache build none.urdf arm.urdf");
+  EXPECT_THAT(result.out, testing::MatchesRegex("arm.urdf: 3 files added in [0-9.]+ s\n"));
+  EXPECT_THAT(result.err, HasSubstr("3 files had damaged contents"));
+  EXPECT_THAT(result.err, HasSubstr("none.urdf: no such file"));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(run("cache build arm.urdf").out, "arm.urdf: nothing to add\n");
+}
+
 TEST_F(CacheCommand, BadInputIsOneLineAndExit2) {
   expectFault("cache build none.urdf", "none.urdf: no such file");
-  expectFaultThatBegins("cache build", "FILE is required");
-  cache_ = "off";
-  expectFaultThatBegins("cache",
-                        "CORRIDOR_CACHE: there is no cache, since this variable is \"off\"");
+  expectFaultThatBegins("cache build", "ROBOT|PROBLEM is required");
+  expectFault("cache build lower.obj",
+              "lower.obj: is neither a robot nor a problem; name one that uses it");
+  for (const char* const off : {"off", "OFF", "no", "0"}) {
+    cache_ = off;
+    expectFault("cache",
+                "corridor: there is no cache, since the variable CORRIDOR_CACHE turns it off");
+  }
+  cache_ = "/proc/none/cache";
+  expectFaultThatBegins("cache build arm.urdf",
+                        "corridor: in the cache /proc/none/cache, 3 files could not be written");
   write("file", "x");
   cache_ = folder_ / "file";
   for (const char* const command : {"cache", "cache clear", "cache build arm.urdf"})
-    expectFault(command,
-                "CORRIDOR_CACHE: the cache in " + cache_ + " is not used: it is not a folder");
+    expectFault(command, "corridor: the cache in " + cache_ + " is not used: it is not a folder");
   const Result result = run("solve arm.yaml");
   EXPECT_EQ(result.status, 0) << "a cache that can't be used is a note";
   EXPECT_THAT(result.out, HasSubstr("note: the cache in " + cache_ + " is not used"));
@@ -124,17 +160,33 @@ TEST_F(CacheCommand, BenchmarksUseItOnRequest) {
   EXPECT_THAT(with.out, HasSubstr("filled before the runs (--cache)"));
   EXPECT_EQ(files().size(), 2u) << "tree and hull";
   cache_ = "off";
-  expectFaultThatBegins(arguments + " --cache", "CORRIDOR_CACHE: there is no cache");
+  expectFaultThatBegins(arguments + " --cache", "corridor: there is no cache");
+}
+
+TEST_F(CacheCommand, ACampaignDoesNotMixRunsWithAndWithoutIt) {
+  const std::string arguments = "benchmark arm.yaml --variants certified -o results ";
+  ASSERT_EQ(run(arguments + "--runs 1 --cache").status, 0);
+  const Result mixed = run(arguments + "--runs 2 --resume");
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("was measured with cache true, not false"));
+  EXPECT_EQ(run(arguments + "--runs 2 --resume --cache").status, 0);
 }
 
 TEST_F(CacheCommand, IsInTheUsersFolderByDefault) {
   const auto runIn = [&](const std::string& variables) {
     return run("cache", "unset CORRIDOR_CACHE XDG_CACHE_HOME; export " + variables + "; ");
   };
-  EXPECT_THAT(runIn("HOME=/h XDG_CACHE_HOME=/x").out, HasSubstr("folder: /x/corridor\n"));
-  EXPECT_THAT(runIn("HOME=/h").out, HasSubstr("folder: /h/.cache/corridor\n"));
-  EXPECT_THAT(runIn("HOME=/h XDG_CACHE_HOME=relative").out,
-              HasSubstr("folder: /h/.cache/corridor\n"));
+  const std::string home = folder_;
+  EXPECT_THAT(runIn("HOME=" + home + " XDG_CACHE_HOME=/x").out, HasSubstr("folder: /x/corridor\n"));
+  EXPECT_THAT(runIn("HOME=" + home).out, HasSubstr("folder: " + home + "/.cache/corridor\n"));
+  EXPECT_THAT(runIn("HOME=" + home + " XDG_CACHE_HOME=relative").out,
+              HasSubstr("folder: " + home + "/.cache/corridor\n"));
+  EXPECT_THAT(runIn("HOME=/none").err,
+              HasSubstr("there is no cache, since neither CORRIDOR_CACHE nor XDG_CACHE_HOME nor "
+                        "HOME names a folder"));
+  cache_ = "named";  // in the working directory
+  EXPECT_THAT(run("cache build arm.urdf").out, HasSubstr("3 files added"));
+  EXPECT_THAT(run("cache").out, HasSubstr("folder: " + home + "/named\n"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "collision/core/file_cache.h"
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
+#include "tests/support/meshes.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -29,9 +30,16 @@ using Random = std::mt19937_64;
 /// Writes a problem: an arm whose last link can fold back onto its base, by two joints of which one
 /// turns without limits.
 std::filesystem::path writeFoldingArm(const std::filesystem::path& folder) {
-  const auto link = [](const std::string& name, const std::string& at, const std::string& size) {
+  std::ofstream cube(folder / "cube.obj");
+  const TriangleMesh mesh = test::tessellatedCube(1);  // of size 2
+  for (const Vec3& v : mesh.vertices) cube << "v " << v.transpose() << '\n';
+  for (const auto& t : mesh.triangles)
+    cube << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  cube.close();
+  const auto link = [](const std::string& name, const std::string& at, const std::string& halves) {
     return "<link name='" + name + "'><collision><origin xyz='" + at + "' rpy='0.1 0.2 0'/>" +
-           "<geometry><box size='" + size + "'/></geometry></collision></link>\n";
+           "<geometry><mesh filename='cube.obj' scale='" + halves +
+           "'/></geometry></collision></link>\n";
   };
   const auto joint = [](const std::string& parent, const std::string& child,
                         const std::string& rest) {
@@ -39,8 +47,9 @@ std::filesystem::path writeFoldingArm(const std::filesystem::path& folder) {
            "'/><child link='" + child + "'/></joint>\n";
   };
   std::ofstream(folder / "arm.urdf")
-      << "<robot name='folding'>\n" + link("base", "0 0 0", "0.4 0.3 0.2") +
-             link("middle", "0 0 0.1", "0.05 0.05 0.1") + link("end", "0.3 0 0", "0.5 0.1 0.06") +
+      << "<robot name='folding'>\n" + link("base", "0 0 0", "0.2 0.15 0.1") +
+             link("middle", "0 0 0.1", "0.025 0.025 0.05") +
+             link("end", "0.3 0 0", "0.25 0.05 0.03") +
              joint("base", "middle",
                    "type='continuous'><origin xyz='0.05 0 0.15'/><axis xyz='0.1 0 1'/>") +
              joint("middle", "end",
@@ -56,7 +65,7 @@ std::filesystem::path writeFoldingArm(const std::filesystem::path& folder) {
 class PairGridsOf : public testing::TestWithParam<const char*> {
  protected:
   PairGridsOf() {
-    problem_.model.cache = std::make_shared<FileCache>(folder_ / "cache");
+    problem_.model.cache = std::make_shared<FileCache>(folder_ / "cache", "code");
     const Checker checker(problem_);
     PairGrids::compute(problem_.model, checker.scene());
     problem_.model.cache->save();
