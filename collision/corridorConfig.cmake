@@ -8,7 +8,6 @@ include("${CMAKE_CURRENT_LIST_DIR}/corridorTargets.cmake")
 
 foreach(component ${corridor_FIND_COMPONENTS})
   if(component STREQUAL "planner" AND EXISTS "${CMAKE_CURRENT_LIST_DIR}/corridorPlannerTargets.cmake")
-    find_dependency(yaml-cpp)
     include("${CMAKE_CURRENT_LIST_DIR}/find_ompl.cmake")
     if(TARGET corridor::ompl)
       include("${CMAKE_CURRENT_LIST_DIR}/corridorPlannerTargets.cmake")

@@ -22,5 +22,5 @@ file(GLOB planner_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      ${CMAKE_CURRENT_LIST_DIR}/checker/*.h ${CMAKE_CURRENT_LIST_DIR}/trajectory/*.h ${CMAKE_CURRENT_LIST_DIR}/solve/*.h
      ${CMAKE_CURRENT_LIST_DIR}/verify/verify_path.h ${CMAKE_CURRENT_LIST_DIR}/verify/polynomial_range.h
      ${CMAKE_CURRENT_LIST_DIR}/verify/bernstein.h ${CMAKE_CURRENT_LIST_DIR}/verify/triangle_gap.h)
-list(FILTER planner_headers EXCLUDE REGEX "/(urdfdom|xml_file|urdf_outline|mesh_store|srdf_[a-z]+)\\.h$")
+list(FILTER planner_headers EXCLUDE REGEX "/(urdfdom|yaml_events|xml_file|urdf_outline|mesh_store|srdf_[a-z]+)\\.h$")
 corridor_install_headers(${planner_headers})

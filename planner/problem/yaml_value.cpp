@@ -1,44 +1,21 @@
 #include "planner/problem/yaml_value.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
-
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/mark.h>
-#include <yaml-cpp/parser.h>
 
 #include "collision/core/error.h"
 #include "collision/core/read_file.h"
 #include "collision/core/text_encoding.h"
+#include "planner/problem/yaml_events.h"
 
 namespace corridor {
 namespace {
 
-/// What yaml-cpp makes of "!!".
-const std::string kStandardTag = "tag:yaml.org,2002:";
-
-/// Returns whether the text is in UTF-16 or UTF-32, which yaml-cpp also reads.
+/// Returns whether the text is in UTF-16, which libyaml also reads.
 bool hasWideCharacters(const std::string& text) {
   return text.find('\0') != text.npos;
-}
-
-/// Returns the position of the quote that closes the one at `open`, or npos.
-std::size_t closingQuote(std::string_view text, std::size_t open) {
-  const char quote = text[open];
-  for (std::size_t i = open + 1; i < text.size(); ++i) {
-    if (text[i] == quote) {
-      if (quote == '"' || text.substr(i, 2) != "''") return i;
-      ++i;  // '' stands for one quote
-    } else if (quote == '"' && text[i] == '\\') {
-      ++i;
-    }
-  }
-  return text.npos;
 }
 
 /// Returns whether a line looks like a key with its value, or like an item of a list.
@@ -51,17 +28,24 @@ bool looksLikeKeyOrItem(std::string_view line) {
          (end + 1 == line.size() || blanks.find(line[end + 1]) != blanks.npos);
 }
 
+/// The start of the standard tags: of "!!str", for example.
+const std::string kStandardTag = "tag:yaml.org,2002:";
+
+/// Returns a tag of an event, or "" if it has none.
+std::string tagOf(const yaml_char_t* tag) {
+  return tag ? reinterpret_cast<const char*>(tag) : "";
+}
+
 /// Returns whether a tag stands for numbers, truth values or nothing, as plain text does.
 bool isPlainTag(const std::string& tag) {
-  return tag == "?" || tag == kStandardTag + "float" || tag == kStandardTag + "int" ||
+  return tag == kStandardTag + "float" || tag == kStandardTag + "int" ||
          tag == kStandardTag + "bool" || tag == kStandardTag + "null";
 }
 
-/// Returns whether a tag, as yaml-cpp passes it on, says no more than what the value's form says.
-/// yaml-cpp's own tags are "?" for values without a tag, and "!" for texts in quotes. Python writes
-/// its tuples with a tag.
+/// Returns whether a tag says no more than what the value's form says. Python writes its tuples
+/// with a tag.
 bool saysNothing(const std::string& tag, YamlValue::Kind kind) {
-  if (tag.empty() || tag == "?" || tag == "!") return true;
+  if (tag.empty() || tag == "!") return true;
   if (kind == YamlValue::Kind::Map) return tag == kStandardTag + "map";
   if (kind == YamlValue::Kind::List)
     return tag == kStandardTag + "seq" || tag == kStandardTag + "python/tuple";
@@ -73,11 +57,16 @@ std::string tagAsWritten(const std::string& tag) {
   return tag.starts_with(kStandardTag) ? "!!" + tag.substr(kStandardTag.size()) : tag;
 }
 
-/// Builds the document from the parser's events, since yaml-cpp's own nodes hide repeated keys.
-class TreeBuilder : public YAML::EventHandler {
+/// Returns whether a plain text stands for no value (YAML 1.2, 10.2.1.1).
+bool isNull(std::string_view text) {
+  return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
+}
+
+/// Builds a document from libyaml's events.
+class TreeBuilder {
  public:
-  TreeBuilder(std::string file, std::string_view text, const YamlLimits& limits)
-      : file_(std::move(file)), text_(text), limits_(limits) {}
+  TreeBuilder(const std::string& file, std::string_view text, const YamlLimits& limits)
+      : file_(file), text_(text), limits_(limits) {}
 
   /// Returns the document. @throws InputError if a key is no word.
   YamlValue take() {
@@ -93,37 +82,26 @@ class TreeBuilder : public YAML::EventHandler {
            " is closed only here: is one missing?";
   }
 
-  void OnDocumentStart(const YAML::Mark&) override {}
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
-    put(value(YamlValue::Kind::Null, mark));
+  void add(const yaml_event_t& event) {
+    const int line = static_cast<int>(event.start_mark.line);
+    switch (event.type) {
+      case YAML_ALIAS_EVENT:
+        fail(line, "aliases (*name) are not read here; write the value out");
+      case YAML_SCALAR_EVENT:
+        return addScalar(event);
+      case YAML_SEQUENCE_START_EVENT:
+        requireNoTag(line, tagOf(event.data.sequence_start.tag), YamlValue::Kind::List);
+        return open(value(YamlValue::Kind::List, line));
+      case YAML_MAPPING_START_EVENT:
+        requireNoTag(line, tagOf(event.data.mapping_start.tag), YamlValue::Kind::Map);
+        return open(value(YamlValue::Kind::Map, line));
+      case YAML_SEQUENCE_END_EVENT:
+      case YAML_MAPPING_END_EVENT:
+        return close();
+      default:
+        return;
+    }
   }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    fail(mark, "aliases (*name) are not read here; write the value out");
-  }
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
-                const std::string& text) override {
-    YamlValue scalar = value(YamlValue::Kind::Scalar, mark);
-    scalar.inDegrees = limits_.angleTags && tag == "!degrees";
-    const bool isAngle = scalar.inDegrees || (limits_.angleTags && tag == "!radians");
-    if (!isAngle) requireNoTag(mark, tag, YamlValue::Kind::Scalar);
-    scalar.text = text;
-    scalar.isPlain = isAngle || isPlainTag(tag);
-    if (!scalar.isPlain) checkQuotes(mark);
-    put(std::move(scalar));
-  }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {
-    requireNoTag(mark, tag, YamlValue::Kind::List);
-    open(value(YamlValue::Kind::List, mark));
-  }
-  void OnSequenceEnd() override { close(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {
-    requireNoTag(mark, tag, YamlValue::Kind::Map);
-    open(value(YamlValue::Kind::Map, mark));
-  }
-  void OnMapEnd() override { close(); }
 
  private:
   struct Open {
@@ -131,51 +109,63 @@ class TreeBuilder : public YAML::EventHandler {
     bool keyIsNext = true;  ///< Map: the next value is a key
   };
 
-  YamlValue value(YamlValue::Kind kind, const YAML::Mark& mark) {
+  void addScalar(const yaml_event_t& event) {
+    const auto& given = event.data.scalar;
+    const int line = static_cast<int>(event.start_mark.line);
+    const std::string tag = tagOf(given.tag);
+    YamlValue scalar = value(YamlValue::Kind::Scalar, line);
+    scalar.inDegrees = limits_.angleTags && tag == "!degrees";
+    const bool isAngle = scalar.inDegrees || (limits_.angleTags && tag == "!radians");
+    if (!isAngle) requireNoTag(line, tag, YamlValue::Kind::Scalar);
+    scalar.text.assign(reinterpret_cast<const char*>(given.value), given.length);
+    const bool isQuoted = given.style == YAML_SINGLE_QUOTED_SCALAR_STYLE ||
+                          given.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
+    const bool hasNone = given.style == YAML_PLAIN_SCALAR_STYLE && tag.empty();
+    scalar.isPlain = hasNone || isAngle || isPlainTag(tag);
+    if (hasNone && isNull(scalar.text)) scalar.kind = YamlValue::Kind::Null;
+    if (isQuoted) checkQuotes(event.start_mark, event.end_mark);
+    put(std::move(scalar));
+  }
+
+  YamlValue value(YamlValue::Kind kind, int line) {
     if (++nodes_ > limits_.nodes)
-      fail(mark,
+      fail(line,
            "has more than " + std::to_string(limits_.nodes) + " keys and values; split the file");
     YamlValue result;
     result.kind = kind;
-    result.line = mark.line + 1;
+    result.line = line + 1;
     return result;
   }
 
-  [[noreturn]] void fail(const YAML::Mark& mark, std::string text) const {
-    throw InputError(Fault{file_, mark.line + 1, std::move(text)});
+  [[noreturn]] void fail(int line, std::string text) const {
+    throw InputError(Fault{file_, line + 1, std::move(text)});
   }
 
   /// Refuses tags: `at: !cm [1, 2, 3]` is meant as centimetres, and no reader knows that.
-  void requireNoTag(const YAML::Mark& mark, const std::string& tag, YamlValue::Kind kind) const {
+  void requireNoTag(int line, const std::string& tag, YamlValue::Kind kind) const {
     if (saysNothing(tag, kind)) return;
-    fail(mark, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it" +
+    fail(line, "tags (" + tagAsWritten(tag) + ") are not read here; write the value without it" +
                    (tag == "!degrees" || tag == "!radians" ? ", in the unit of its key" : ""));
   }
 
-  /// Refuses quotes that are not closed: yaml-cpp takes the rest of the file as part of the value.
   /// Refuses quotes that are closed on a later line, if what looks like a key is between: these
   /// keys would be lost, for example a margin.
-  void checkQuotes(const YAML::Mark& mark) {
-    auto at = static_cast<std::size_t>(mark.pos);
-    while (at < text_.size() && (text_[at] == '!' || text_[at] == '&'))  // a tag, an anchor
-      at = text_.find_first_not_of(" \t", std::min(text_.find_first_of(" \t", at), text_.size()));
-    if (at >= text_.size() || (text_[at] != '"' && text_[at] != '\'')) return;
-    const std::size_t close = closingQuote(text_, at);
-    if (close == text_.npos) fail(mark, "is not YAML: a quote on this line is not closed");
-    std::string_view inside = text_.substr(at, close - at);
-    std::size_t end = inside.find('\n');
-    if (end == inside.npos) return;
-    firstLineOfQuotes_ = mark.line;
-    lastLineOfQuotes_ =
-        mark.line + static_cast<int>(std::count(inside.begin(), inside.end(), '\n'));
-    while (end != inside.npos) {
-      inside.remove_prefix(end + 1);
-      end = inside.find('\n');
-      if (looksLikeKeyOrItem(inside.substr(0, end)))
-        fail(mark, "a quote on this line is closed only on line " +
-                       std::to_string(lastLineOfQuotes_ + 1) +
-                       ", behind what looks like a key or an item; is a quote missing? If not, "
-                       "write the text on one line");
+  void checkQuotes(const yaml_mark_t& open, const yaml_mark_t& close) {
+    if (open.line == close.line) return;
+    firstLineOfQuotes_ = static_cast<int>(open.line);
+    lastLineOfQuotes_ = static_cast<int>(close.line);
+    std::string_view rest = text_;
+    for (std::size_t line = 0; line <= close.line && !rest.empty(); ++line) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      // The column counts characters, of which each has a byte or more: no key is left out.
+      const std::string_view inside =
+          line == close.line ? rest.substr(0, std::min(end, close.column)) : rest.substr(0, end);
+      if (line > open.line && looksLikeKeyOrItem(inside))
+        fail(firstLineOfQuotes_, "a quote on this line is closed only on line " +
+                                     std::to_string(lastLineOfQuotes_ + 1) +
+                                     ", behind what looks like a key or an item; is a quote "
+                                     "missing? If not, write the text on one line");
+      rest.remove_prefix(std::min(end + 1, rest.size()));
     }
   }
 
@@ -233,21 +223,6 @@ class TreeBuilder : public YAML::EventHandler {
   int firstLineOfQuotes_ = -1, lastLineOfQuotes_ = -1;
 };
 
-/// Returns a line of the text, counted from 0; "" if there is no such line.
-std::string lineOf(const std::string& text, int line) {
-  std::istringstream stream(text);
-  std::string found;
-  for (int i = 0; i <= line; ++i)
-    if (!std::getline(stream, found)) return "";
-  return found;
-}
-
-/// Returns the number of lines up to the last one that is not blank, at least 1.
-int linesOf(const std::string& text) {
-  const auto size = static_cast<std::ptrdiff_t>(text.find_last_not_of(" \t\r\n") + 1);
-  return static_cast<int>(std::count(text.begin(), text.begin() + size, '\n')) + 1;
-}
-
 /// Returns the text without the lines `---` at its end, which begin documents that are empty.
 std::string_view withoutLastMarks(std::string_view text) {
   for (;;) {
@@ -257,8 +232,8 @@ std::string_view withoutLastMarks(std::string_view text) {
   }
 }
 
-/// Returns the line of a directive (%YAML …) that follows other lines than directives and comments,
-/// which yaml-cpp drops; 0 if there is none.
+/// Returns the line of a directive (%YAML …) that follows other lines than directives and comments;
+/// 0 if there is none.
 int lateDirective(std::string_view text) {
   bool isLate = false;
   int number = 0;
@@ -272,64 +247,28 @@ int lateDirective(std::string_view text) {
   return 0;
 }
 
-/// Returns a clearer message for the faults that people make most, or else yaml-cpp's message.
-std::string explained(const YAML::Exception& error, const std::string& line) {
-  using namespace YAML::ErrorMsg;
-  const std::size_t indent = line.find_first_not_of(" \t");
-  const auto column = static_cast<std::size_t>(std::max(error.mark.column, 0));
-  if (line.substr(0, indent).find('\t') != line.npos)
-    return "the line is indented by a tab; use blanks";
-  if (error.msg == END_OF_MAP || error.msg == END_OF_SEQ) {
-    if (indent < column && column <= line.size())
-      return "nothing may follow the value on this line";
-    return "\"key: value\" or \"- value\" is needed here, indented like the lines above it, and "
-           "with a blank after the colon or the minus";
-  }
-  if (error.msg == UNKNOWN_TOKEN && column < line.size() && ' ' < line[column] &&
-      line[column] < 0x7f)
-    return std::string("a text that begins with ") + line[column] + " must be in quotes";
-  static const std::map<std::string, const char*> texts{
-      {END_OF_MAP_FLOW, "a comma, a } or the blank after a colon is missing, here or above"},
-      {END_OF_SEQ_FLOW, "a comma or a ] is missing, here or above"},
-      {FLOW_END, "a } or ] is missing, or there is one too many"},
-      {EOF_IN_SCALAR, "a quote above is not closed"},
-      {DOC_IN_SCALAR, "a quote above is not closed"},
-      {BLOCK_ENTRY,
-       "\"- \" begins a list item; it must begin its line, and can't be inside [ ] or { }"},
-      {MAP_VALUE,
-       "a colon can't be here; perhaps this line or the line above lacks a colon or the blank "
-       "after "
-       "it; a map on one line needs braces, {key: value}, and a text with a colon needs quotes"}};
-  const auto found = texts.find(error.msg);
-  return found == texts.end() ? error.msg : found->second;
-}
-
 }  // namespace
 
 YamlValue parseYaml(const std::string& file, const std::string& given, const YamlLimits& limits) {
-  const std::string text = withLineFeeds(given);  // yaml-cpp ends comments at LF only
-  const bool isWide = hasWideCharacters(text);  // then positions of yaml-cpp are not those of bytes
+  const std::string text = withLineFeeds(given);
+  const bool isWide = hasWideCharacters(text);
   if (!isWide) requireUtf8(text, file);
   const std::string_view utf8 = isWide ? "" : withoutLastMarks(withoutByteOrderMark(text));
   if (const int line = lateDirective(utf8); line > 0)
     throw InputError(Fault{file, line,
                            "a line that begins with % is not read after the first lines; "
                            "remove it, or put the value in quotes"});
-  TreeBuilder first(file, utf8, limits), second(file, utf8, limits);
-  try {
-    // With the line break, yaml-cpp also passes on the last value if its quote is not closed.
-    std::istringstream stream(isWide ? text : std::string(utf8) + "\n");
-    YAML::Parser parser(stream);
-    parser.HandleNextDocument(first);
-    if (parser.HandleNextDocument(second))
+  TreeBuilder document(file, utf8, limits);
+  YamlEvents events(isWide ? std::string_view(text) : utf8);
+  for (int documents = 0; const yaml_event_t* const event = events.next();) {
+    if (event->type == YAML_DOCUMENT_START_EVENT && ++documents > 1)
       throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
-    return first.take();
-  } catch (const YAML::Exception& error) {
-    const int line = std::clamp(error.mark.line, 0, linesOf(text) - 1);
-    throw InputError(
-        Fault{file, line + 1,
-              "is not YAML: " + explained(error, lineOf(text, line)) + first.remarkOnQuotes(line)});
+    document.add(*event);
   }
+  if (const auto& fault = events.fault())
+    throw InputError(Fault{file, fault->line + 1,
+                           "is not YAML: " + fault->text + document.remarkOnQuotes(fault->line)});
+  return document.take();
 }
 
 }  // namespace corridor

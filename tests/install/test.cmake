@@ -31,7 +31,7 @@ foreach(header ${headers})
     if(include MATCHES "\"(.*)\"" AND NOT EXISTS "${prefix}/include/corridor/${CMAKE_MATCH_1}")
       message(FATAL_ERROR "${header} includes ${CMAKE_MATCH_1}, which is not installed")
     endif()
-    if(include MATCHES "<(boost|assimp|hwy|yaml-cpp|nlohmann|CLI|tinyxml2|urdf|console_bridge)"
+    if(include MATCHES "<(boost|assimp|hwy|yaml\\.h|nlohmann|CLI|tinyxml2|urdf|console_bridge)"
        OR (include MATCHES "<ompl" AND NOT header MATCHES "/planner/(checker|solve)/"))
       message(FATAL_ERROR "${header}: ${include}: an installed header must not include it, "
                           "since users of the library need not have it")

@@ -393,8 +393,7 @@ TEST_F(ProblemFaults, Robots) {
                              "name: a}\n  - {mesh: wedge.obj, name: a}\n"),
             "robot.yaml:5: shapes[1].name: \"a\" is the name of another shape");
   EXPECT_EQ(complaintOfRobot("rigid: {\n"),
-            "robot.yaml:1: is not YAML: a comma, a } or the blank after a colon is missing, here "
-            "or above");
+            "robot.yaml:1: is not YAML: a } or a ] is missing, here or above");
 }
 
 TEST_F(ProblemFaults, ReportsProblemAndRobotAtOnce) {
