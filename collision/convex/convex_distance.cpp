@@ -305,7 +305,8 @@ ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const Con
   return result;
 }
 
-ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near) {
+ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
+                                double relative) {
   const Pair pair(a, b);
   gjk::Search<double> search(a, b, pair.size());
   double lower = 0;
@@ -313,7 +314,7 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
       gjk::Simplex<double>(),
       [&](double upper, double gap) {
         return upper <= pair.touchDistance() || upper - pair.radii() + pair.error() <= near ||
-               upper - gap <= std::max(0x1p-50 * pair.size(), 0x1p-20 * (gap - pair.radii()));
+               upper - gap <= std::max(0x1p-50 * pair.size(), relative * (gap - pair.radii()));
       },
       [&](const Vec3& n, double gap, std::uint32_t pointA, std::uint32_t pointB) {
         if (!(gap - pair.radii() > beyond)) return false;

@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/convex/convex_distance.h"
 #include "collision/core/rounding.h"
+#include "collision/geometry/convex_part.h"
 #include "collision/geometry/vertex_welder.h"
 
 namespace corridor {
@@ -16,6 +18,12 @@ constexpr std::size_t kMostVertices = 1024;
 /// Cells along the longest side of the grid, at most.
 constexpr int kMostCells = 40;
 constexpr std::size_t kSampledTriangles = 256;
+/// For `thinned`: hulls of more points are thinned; a part of their radius; and how many directions
+/// choose the points with which it begins.
+constexpr std::size_t kFewPoints = 200;
+constexpr double kThinning = 1.0 / 1024;
+constexpr int kDirections = 48;
+constexpr double kGoldenAngle = 2.399963229728653;  // radians
 constexpr double kDeepest = 0.35;  // mean depth of the triangles, as a part of the mesh's radius
 
 /// Returns the distinct vertices that the triangles use; none if there are more than kMostVertices.
@@ -128,6 +136,37 @@ std::optional<EnclosingHull> enclosingHull(const TriangleMesh& mesh) {
       used.empty() ? hullOfCells(mesh) : EnclosingHull{PointColumns(std::move(used))};
   if (hull && !fits(*hull, mesh)) hull.reset();
   return hull;
+}
+
+EnclosingHull thinned(EnclosingHull hull) {
+  const PointColumns& all = hull.points;
+  const std::span<const Vec3> points = all.points();
+  if (points.size() <= kFewPoints) return hull;
+  double square = 0;
+  for (const Vec3& p : points) square = std::max(square, (p - all.center()).squaredNorm());
+  const double tolerance = kThinning * std::sqrt(square);
+  std::vector<char> isKept(points.size());
+  for (int i = 0; i < kDirections; ++i) {  // of a Fibonacci sphere
+    const double z = 1 - (2 * i + 1.0) / kDirections, turn = kGoldenAngle * i;
+    const double r = std::sqrt(1 - z * z);
+    isKept[all.farthest({r * std::cos(turn), r * std::sin(turn), z})] = true;
+  }
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (isKept[i]) kept.push_back(points[i]);
+  PointColumns columns(kept);
+  ConvexPart point;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (isKept[i]) continue;
+    point.points = {points[i]};
+    const ConvexSet hullOfKept(columns);  // it only grows
+    const ConvexRange range = convexDistanceRange({ConvexSet(point), Transform()},
+                                                  {hullOfKept, Transform()}, tolerance, tolerance);
+    if (range.upper <= tolerance) continue;
+    kept.push_back(points[i]);
+    columns = PointColumns(kept);
+  }
+  return {std::move(columns), roundedUp(hull.radius + tolerance)};
 }
 
 }  // namespace corridor

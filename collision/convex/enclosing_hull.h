@@ -30,4 +30,10 @@ struct EnclosingHull {
 /// @pre the mesh has a triangle, `checkMesh` reports nothing.
 std::optional<EnclosingHull> enclosingHull(const TriangleMesh& mesh);
 
+/// Returns a convex set that contains a hull of more than 200 points, with fewer points: the hull
+/// of some of them, swept by a sphere that is larger by 1/1024 of the hull's radius. It takes about
+/// 1 ms for 1,000 points, and makes each test of the hull a few times faster. Other hulls stay as
+/// they are.
+EnclosingHull thinned(EnclosingHull hull);
+
 }  // namespace corridor

@@ -207,8 +207,11 @@ void ProblemStateSpace::interpolate(const ob::State* from, const ob::State* to, 
 }
 
 double ProblemStateSpace::distance(const ob::State* a, const ob::State* b) const {
-  // Planners compute distances more often than anything else. So the numbers of small spaces are
-  // kept on the stack.
+  // Planners compute distances more often than anything else. So nothing is copied in spaces of
+  // one part, and the numbers of other small spaces are kept on the stack.
+  if (parts_.size() == 1 && parts_.front().kind == Kind::line)
+    return space_.distance(a->as<ob::CompoundState>()->as<Lines>(0)->values,
+                           b->as<ob::CompoundState>()->as<Lines>(0)->values);
   constexpr std::size_t kFew = 32;
   if (space_.size() > kFew) return space_.distance(read(a), read(b));
   double numbersA[kFew], numbersB[kFew];

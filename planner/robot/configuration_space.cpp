@@ -49,11 +49,20 @@ std::size_t ConfigurationSpace::add(Coordinate coordinate) {
   coordinate.first = size_;
   size_ += coordinate.size();
   coordinates_.push_back(std::move(coordinate));
+  lineWeights_.clear();
   return coordinates_.size() - 1;
 }
 
 void ConfigurationSpace::addGroup(CoordinateGroup group) {
   groups_.push_back(std::move(group));
+  const CoordinateGroup& first = groups_.front();
+  bool isLines = groups_.size() == 1 && first.kind == CoordinateGroup::Kind::joints &&
+                 first.coordinates.size() == coordinates_.size();
+  for (std::size_t i = 0; isLines && i < coordinates_.size(); ++i)
+    isLines = first.coordinates[i] == i && coordinates_[i].kind == Coordinate::Kind::line;
+  lineWeights_.clear();
+  if (isLines)
+    for (const Coordinate& c : coordinates_) lineWeights_.push_back(c.weight);
 }
 
 Coordinate::Kind ConfigurationSpace::kindOfNumber(std::size_t number) const {
@@ -127,6 +136,15 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
 }
 
 double ConfigurationSpace::distance(const double* a, const double* b) const {
+  if (!lineWeights_.empty()) {  // the common case, without its indirections
+    double squares = 0;
+    for (std::size_t i = 0; i < lineWeights_.size(); ++i) {
+      const double weighted = lineWeights_[i] * std::abs(b[i] - a[i]);
+      squares += weighted * weighted;
+    }
+    const double length = std::sqrt(squares);
+    if (length > 1e-150 && length < HUGE_VAL) return length;
+  }
   double sum = 0;
   for (const CoordinateGroup& group : groups_) {
     const std::vector<std::size_t>& members = group.coordinates;

@@ -101,6 +101,8 @@ class ConfigurationSpace {
  private:
   std::vector<Coordinate> coordinates_;
   std::vector<CoordinateGroup> groups_;
+  /// The weights of all coordinates, if these are one group of joints, each of kind `line`.
+  std::vector<double> lineWeights_;
   std::size_t size_ = 0;
 };
 

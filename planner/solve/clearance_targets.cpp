@@ -164,13 +164,16 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(
 std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configuration& from,
                                                                   const Configuration& to,
                                                                   double enough) const {
-  // The proof goes first: the place where it fails is sampled first. Samples alone may miss it.
-  const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
-  if (result.verdict == MotionVerdict::free) return std::nullopt;
+  // Hulls and samples go first: they answer most edges, and are quicker than a proof that fails.
   const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
   if (pairs.empty() && !checker_.scene().pairs().empty()) return std::nullopt;
-  if (result.time < 0) return worstOn(from, to, targets_, pairs, enough);
-  Worst worst = worstOn(from, to, targets_, pairs, enough, result.time);
+  Worst worst = worstOn(from, to, targets_, pairs, enough);
+  if (worst.share < 1) return worst;
+  const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
+  if (result.verdict == MotionVerdict::free) return std::nullopt;
+  if (result.time < 0) return worst;
+  // The samples missed it. They may meet it near the place where the proof fails.
+  worst = worstOn(from, to, targets_, pairs, enough, result.time);
   if (worst.share >= 1) {
     worst.t = result.time;
     worst.share = kJustMissed;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/convex/convex_distance.h"
 #include "collision/convex/enclosing_hull.h"
 #include "collision/convex/polytope.h"
 #include "tests/collision/queries/every_target.h"
@@ -79,7 +80,7 @@ TEST(EnclosingHull, ContainsMeshesOfManyVertices) {
       many.push_back(Vec3(7, -3, 1) +
                      Vec3(normal(random), 0.3 * normal(random), normal(random)).normalized());
     const TriangleMesh mesh = meshOf(Polytope(many));
-    const auto hull = enclosingHull(mesh);
+    auto hull = enclosingHull(mesh);
     ASSERT_TRUE(hull);
     most = std::max(most, hull->points.points().size());
     EXPECT_LE(hull->points.points().size(), 1024u);
@@ -96,6 +97,36 @@ TEST(EnclosingHull, ContainsMeshesOfManyVertices) {
     }
   }
   EXPECT_GT(most, 100u);
+}
+
+/// A hull of fewer points contains each of the points of the other one: the distance from the hull
+/// of the points that are left, in double-double, is at most the radius.
+TEST(EnclosingHull, OfFewerPointsContainsAllOthers) {
+  std::mt19937_64 random(test::testSeed(93));
+  std::normal_distribution<double> normal;
+  for (const int count : {150, 300, 900}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i)
+      points.push_back(Vec3(7, -3, 1) +
+                       0.1 * Vec3(normal(random), normal(random), 3 * normal(random)).normalized());
+    const EnclosingHull whole{PointColumns(points), 1e-3}, thin = thinned(whole);
+    if (count < 200) {
+      EXPECT_EQ(thin.points.points().size(), points.size());
+      EXPECT_EQ(thin.radius, 1e-3);
+      continue;
+    }
+    EXPECT_LT(thin.points.points().size(), points.size());
+    EXPECT_LT(thin.radius, 1e-3 + 0.2 / 1024);
+    double farthest = 0;
+    const ConvexSet kept(thin.points);
+    for (const Vec3& p : points) {
+      const ConvexPart point{.points = {p}};
+      farthest = std::max(
+          farthest, convexDistance({ConvexSet(point), Transform()}, {kept, Transform()}).distance);
+    }
+    EXPECT_LE(farthest, thin.radius - 1e-3);
+    EXPECT_GT(farthest, 0) << "points are left out that are corners of the hull";
+  }
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST_F(CachedTree, AnotherMeshHasAnotherTree) {
   EXPECT_EQ(kept.counts().found, 0u);
 }
 
-TEST_F(CachedTree, EqualsTheHullThatIsComputed) {
+TEST_F(CachedTree, HasTheHullThatIsComputedWithFewerPoints) {
   const TriangleMesh folded = sheet(30, [](std::uint32_t i, std::uint32_t k) {
     return Vec3(i, k, i % 2 == 0 ? 0 : 40);  // deep folds: no hull fits
   });
@@ -87,8 +87,10 @@ TEST_F(CachedTree, EqualsTheHullThatIsComputed) {
       kept.save();
       ASSERT_EQ(hull.has_value(), built.has_value());
       if (!hull) continue;
-      EXPECT_EQ(hull->radius, built->radius);
-      EXPECT_TRUE(std::ranges::equal(hull->points.points(), built->points.points()));
+      const EnclosingHull expected = isFound ? thinned(*built) : *built;
+      EXPECT_EQ(hull->radius, expected.radius);
+      EXPECT_TRUE(std::ranges::equal(hull->points.points(), expected.points.points()));
+      EXPECT_EQ(hull->points.points().size() < 200, isFound) << "a hull from the cache is thinned";
     }
   }
   EXPECT_FALSE(enclosingHull(folded)) << "the test is also about meshes without a hull";
@@ -111,7 +113,7 @@ TEST_F(CachedTree, ABodyAsksTheCacheOnceAndOnlyForWhatIsNeeded) {
 
 TEST_F(CachedTree, SmallMeshesAreNotKept) {
   FileCache kept = cache();
-  const TriangleMesh small = tessellatedCube(3);
+  const TriangleMesh small = tessellatedCube(2);
   expectEqual(*cachedTree(small, ObbFit::triangles, &kept), Obb4Tree(small));
   cachedHull(small, &kept);
   kept.save();
