@@ -36,6 +36,12 @@ void CacheFileWriter::add(Bytes bytes) {
   append(pieces_.emplace_back(), bytes);
 }
 
+std::uint64_t CacheFileWriter::size() const {
+  std::uint64_t sum = 0;
+  for (const std::string& piece : pieces_) sum += piece.size();
+  return sum;
+}
+
 std::string CacheFileWriter::bytes(const Digest& key) const {
   std::vector<std::uint64_t> sizes;
   for (const std::string& piece : pieces_) sizes.push_back(piece.size());

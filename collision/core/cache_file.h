@@ -24,6 +24,8 @@ class CacheFileWriter {
   }
   void put(const std::string& text) { add(bytesOf(text)); }
 
+  /// Returns the length of all pieces, in bytes.
+  std::uint64_t size() const;
   /// Returns the bytes of the file: a header, the length of each piece, and the pieces. The header
   /// has the key and a checksum of all that follows it.
   std::string bytes(const Digest& key) const;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,10 +16,12 @@ namespace corridor {
 
 using Bytes = std::span<const std::byte>;
 
-/// Whether the bytes of a type are its value. The copy constructor of Eigen's vectors is not
-/// trivial, but a `Vec3` is three doubles.
+/// Whether the bytes of a type are its value: not of pointers and views. (A struct must have no
+/// padding.) The copy constructor of Eigen's vectors is not trivial, but a `Vec3` is three doubles.
 template <class T>
-inline constexpr bool kIsBytes = std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>;
+inline constexpr bool kIsBytes = (std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
+                                  !std::ranges::view<T>) ||
+                                 std::is_same_v<T, Vec3>;
 
 /// Returns the bytes of a list, of a value, or of a text.
 template <class T>

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdio>
 #include <fcntl.h>
+#include <new>
+#include <ostream>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -155,6 +157,21 @@ void FileCache::offer(const Digest& key, Put put) {
   offered_.emplace_back(key, std::move(put));
 }
 
+std::optional<std::error_code> FileCache::write(const std::filesystem::path& file,
+                                                const Digest& key, const Put& put) const {
+  try {
+    CacheFileWriter writer;
+    put(writer);
+    if (writer.size() > mostBytes_ / 2) return std::nullopt;
+    std::error_code none;
+    // What is no file is removed first: writing into a pipe would wait for a reader.
+    if (!std::filesystem::is_regular_file(file, none)) std::filesystem::remove(file, none);
+    return tryWriteWhole(file, [bytes = writer.bytes(key)](std::ostream& out) { out << bytes; });
+  } catch (const std::bad_alloc&) {
+    return std::make_error_code(std::errc::not_enough_memory);
+  }
+}
+
 void FileCache::save() {
   std::vector<std::pair<Digest, Put>> offered;
   {
@@ -166,21 +183,16 @@ void FileCache::save() {
   std::filesystem::create_directories(folder_.parent_path(), noFolder);
   if (!noFolder && ::mkdir(folder_.c_str(), S_IRWXU) != 0 && errno != EEXIST)
     noFolder = {errno, std::generic_category()};
+  // Somebody else may have made the folder since the constructor looked.
+  const std::string whyNone = noFolder ? noFolder.message() : whyNotOwn(folder_);
   for (const auto& [key, put] : offered) {
     const std::filesystem::path file = fileOf(key);
-    std::error_code failure = noFolder;
-    if (!failure) {
-      CacheFileWriter writer;
-      put(writer);
-      std::error_code none;
-      // What is no file is removed first: writing into a pipe would wait for a reader.
-      if (!std::filesystem::is_regular_file(file, none)) std::filesystem::remove(file, none);
-      failure =
-          tryWriteWhole(file, [bytes = writer.bytes(key)](std::ostream& out) { out << bytes; });
-    }
+    const auto failure = whyNone.empty() ? write(file, key, put) : std::error_code();
+    const bool failed = !whyNone.empty() || (failure && *failure);
     const std::lock_guard lock(mutex_);
-    ++(failure ? counts_.failed : counts_.written);
-    if (failure) unwritten_.add((noFolder ? "" : quotedName(file) + ": ") + failure.message());
+    if (failure) ++(failed ? counts_.failed : counts_.written);
+    if (failed)
+      unwritten_.add(whyNone.empty() ? quotedName(file) + ": " + failure->message() : whyNone);
   }
   removeOldest(folder_, mostBytes_);
 }

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,8 +19,8 @@ namespace corridor {
 
 /// Results that take long to compute, kept in files for later programs: meshes as they were read,
 /// trees, hulls. Each file has one result. Its name is a digest of everything that the result
-/// depends on: all inputs, and the code that computed it. So a result is never out of date; only
-/// nobody asks for it any more.
+/// depends on: all inputs, and the code that computed it. So a result is never out of date. Results
+/// of older code are not looked up any more, and are removed when space is needed.
 ///
 /// A file is used only if its checksum holds for all its bytes. A damaged file counts as none, and
 /// is removed. A file appears in its folder as a whole, so many programs may use the folder at the
@@ -50,7 +52,8 @@ class FileCache {
   /// so it must own what it needs.
   void offer(const Digest& key, Put put);
   /// Writes what was offered since the last call. A program does this after its answer. What can't
-  /// be written is dropped, with a note.
+  /// be written is dropped, with a note. So is, without one, a result of more than half of the
+  /// cache's limit, since it would push out many others.
   void save();
 
   /// Removes all files of the cache. Returns their number. There is a note for those that can't be
@@ -85,6 +88,9 @@ class FileCache {
     }
   };
   std::filesystem::path fileOf(const Digest& key) const;
+  /// Writes a result. @returns nothing if it is too large to be kept.
+  std::optional<std::error_code> write(const std::filesystem::path& file, const Digest& key,
+                                       const Put& put) const;
 
   std::filesystem::path folder_;
   std::string code_;

@@ -121,8 +121,8 @@ class ChainFilter {
   /// @param motions one for each joint.
   /// @param test if not null, called for some pairs whose hulls meet at the middle of an interval.
   /// If it returns true, the query ends, and `left` is empty.
-  /// @param proved for each pair of the scene, by its index, whether it is proved already, and
-  /// `left` need not have it. Empty: none is.
+  /// @param proved for each pair of two links, by its number in the query, whether it is proved
+  /// already, so that it is not tested, and `left` does not have it. Empty: none is.
   void pairsLeft(std::span<const JointMotion> motions, const MotionOptions& options,
                  Scratch& scratch, std::vector<std::uint32_t>& left, TouchTest* test = nullptr,
                  std::span<const std::uint8_t> proved = {}) const;

@@ -117,7 +117,7 @@ class Balls : Lanes {
       for (std::size_t j = 0; j < tables_.joints.size(); ++j) placeJoint(j, first, h, joints[j]);
       for (std::size_t i = 0; i < tables_.links.size(); ++i) placeLink(i);
       for (const std::uint32_t k : tables_.linkPairs)
-        if (edge_.proved.empty() || !edge_.proved[k]) testLinks(k);
+        if (edge_.proved.empty() || !edge_.proved[tables_.scene.pairs[k].number]) testLinks(k);
       for (std::size_t i = 0; i < tables_.links.size(); ++i)
         if (tables_.links[i].hasObstacles) testObstacles(i);
     }

@@ -69,7 +69,7 @@ struct ChainEdge {
   float firstOrder = 0;  ///< metres per radian or metre of joint motion: error of displacements
   std::vector<float> margins;  ///< metres, for each pair
   float largestMargin = 0;
-  std::span<const std::uint8_t> proved;  ///< for each pair, if there are any; not tested
+  std::span<const std::uint8_t> proved;  ///< see `ChainFilter::pairsLeft`
 };
 
 constexpr int kMostChainSets = 8;

@@ -52,16 +52,13 @@ class EnclosureTest {
     return Posed(placed.body, X_WF_[placed.frame]);
   }
 
-  /// Returns whether a point of the inner body is in the bounding sphere of the outer one, up to
-  /// 2^-20 of the lengths, which exceeds all rounding. Each point of an enclosed body is in it.
-  /// Boxes are more exact, but take far longer.
+  /// Returns whether the bounding spheres of two bodies meet, up to 2^-20 of the lengths, which
+  /// exceeds all rounding. Boxes are more exact, but take far longer.
   static bool isNear(const Posed<Body>& outer, const Posed<Body>& inner) {
-    const TriangleMesh& mesh = inner.shape.mesh();
-    const Vec3& point =
-        inner.shape.isMesh() ? mesh.corner(0, 0) : inner.shape.parts().front().points.front();
-    const Vec3 p = inner.X_W * point, center = outer.X_W * outer.shape.sphereCenter();
-    const double slack = 0x1p-20 * (p.stableNorm() + center.stableNorm());
-    return (p - center).stableNorm() <= outer.shape.sphereRadius() + slack;
+    const Vec3 a = outer.X_W * outer.shape.sphereCenter(),
+               b = inner.X_W * inner.shape.sphereCenter();
+    const double radii = outer.shape.sphereRadius() + inner.shape.sphereRadius();
+    return (a - b).stableNorm() <= radii + 0x1p-20 * (radii + a.stableNorm() + b.stableNorm());
   }
 
   const Corners& boxOf(std::size_t shape) {

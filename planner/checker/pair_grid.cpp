@@ -6,11 +6,13 @@
 
 #include "collision/core/circle.h"
 
-/// Rounding. Values are computed in cells; for all that `covers` accepts, they are below 2^24 cells
-/// on the way, and each has fewer than 16 roundings, with errors below 2^-26 cells together. A line
-/// is therefore searched `kSlop` cells around. So a real value is in a cell that was looked up, or,
+/// Rounding. Values are computed in cells; for all that `covers` accepts, they are below 2^25 cells
+/// on the way, and each has fewer than 16 roundings of at most 2^-28 cells. The turn round a circle
+/// has a rounding of its own, below 2^-25 cells. All together this is below 2^-23. A line is
+/// therefore searched `kSlop` cells around. So a real value is in a cell that was looked up, or,
 /// at the end of an axis that is no turn, at most 2·kSlop beyond the last cell. With a tube of
-/// `kWidestTube` this is within `kReach`.
+/// `kWidestTube` this is within `kReach`; kReach − kWidestTube − 2·kSlop, a quarter of `kReach`, is
+/// left for the rounding of the cells' own values (`kLeastRange`, pair_grids.cpp).
 namespace corridor {
 namespace {
 
@@ -30,7 +32,11 @@ PairGrid::PairGrid(std::vector<Axis> axes, double clearance, Marks marks)
 PairGrid::Line PairGrid::lineOf(const Axis& axis, const Configuration& from,
                                 const Configuration& to) {
   const auto i = static_cast<Eigen::Index>(axis.number);
-  const double along = axis.isCircle ? circleTurn(from[i], to[i]).angle : to[i] - from[i];
+  double along = to[i] - from[i];
+  if (axis.isCircle) {
+    const CircleTurn turn = circleTurn(from[i], to[i]);
+    along = turn.ambiguous() ? HUGE_VAL : turn.angle;  // `covers` refuses infinity
+  }
   return {(from[i] - axis.lower) / axis.cell, along / axis.cell};
 }
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "planner/robot/configuration_space.h"
@@ -53,9 +51,9 @@ class PairGrid {
   const Marks& marks() const { return marks_; }
 
   /// Returns whether all cells are marked that an edge passes (collision/PROMISES.md defines the
-  /// edge). If so, the two bodies keep the clearance on the whole edge, and also for every curve
-  /// that is off by at most `kWidestTube` cells. The answer for an edge that is not finite, or that
-  /// goes half a turn round a circle, is false.
+  /// edge). If so, the two bodies keep the clearance on the whole edge, and also on every curve
+  /// whose numbers differ from the edge's by at most `kWidestTube` cells. The answer for an edge
+  /// that is not finite, or that goes half a turn round a circle, is false.
   bool covers(const Configuration& from, const Configuration& to) const;
 
  private:

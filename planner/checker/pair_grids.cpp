@@ -1,6 +1,7 @@
 #include "planner/checker/pair_grids.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -18,6 +19,10 @@
 namespace corridor {
 namespace {
 
+/// The least range of a number, as a part of its limits. The values of cells are then rounded by at
+/// most 2^-52 / 2^-30 of the range, which is 2^-15 cells.
+constexpr double kLeastRange = 0x1p-30;
+
 /// Returns the frames between the bodies of a pair, if it may have a grid. Two primitives are
 /// tested faster than a grid is looked up. A body inside a solid mesh is in contact, which a grid
 /// does not test.
@@ -30,8 +35,9 @@ std::optional<ChainBetween> chainOf(const Model& model, const Scene& scene,
   auto chain =
       chainBetween(model, scene.bodies()[pair.bodyA].frame, scene.bodies()[pair.bodyB].frame, 0);
   if (!chain || chain->box.size() > 2) return std::nullopt;
-  for (const ChainBetween::Range& range : chain->box)
-    if (!(range.upper - range.lower > 0)) return std::nullopt;
+  for (const auto& [lower, upper] : chain->box)
+    if (!(upper - lower > kLeastRange * std::max(std::abs(lower), std::abs(upper))))
+      return std::nullopt;
   return chain;
 }
 
@@ -99,7 +105,8 @@ class GridBuilder {
         pair_{pair.a, pair.b, 0, 0, 1},
         axes_(axes),
         marks_(PairGrid::wordsFor(axes.size())) {
-    query_.tolerance = 1e-9;  // nothing moves: it decides nothing
+    query_.tolerance = 1e-9;  // without effect, since nothing moves
+    query_.workLimit = kWork;
     query_.margin = clearance;
   }
 
@@ -116,7 +123,7 @@ class GridBuilder {
   };
 
   /// Blocks that take longer are divided; cells that take longer are not marked.
-  static constexpr std::uint64_t kWorkOfBlock = 20'000, kWorkOfCell = 20'000;
+  static constexpr std::uint64_t kWork = 20'000;
 
   std::int64_t rows() const { return axes_.size() == 2 ? PairGrid::kSide : 1; }
 
@@ -127,8 +134,8 @@ class GridBuilder {
           PairGrid::mark(marks_, c, r);
       return;
     }
-    // Where nine places of a small block are too close, a cell that is not is hardly worth a
-    // search.
+    // Where nine places of a small block are too close, few of its cells can be proved: they are
+    // left unmarked.
     if (block.size == 1 || (block.size == 8 && isTooCloseAllOver(block))) return;
     const std::int64_t half = block.size / 2;
     for (const std::int64_t c : {block.column, block.column + half})
@@ -154,10 +161,9 @@ class GridBuilder {
     Configuration half(q.size());
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       const PairGrid::Axis& axis = axes_[static_cast<std::size_t>(i)];
-      // The rounding of the middle is far below the rest of the reach (pair_grid.cpp).
+      // The rounding of the middle is below the rest of the reach (`kLeastRange`).
       half[i] = roundedUp((0.5 * static_cast<double>(block.size) + PairGrid::kReach) * axis.cell);
     }
-    query_.workLimit = block.size > 1 ? kWorkOfBlock : kWorkOfCell;
     EdgeMotion motion(chain_.tree, chain_.space, {&chain_.pair, 1}, half);
     motion.set(q, q);
     return certifyMotion(motion, {&pair_, 1}, query_, context_).verdict == MotionVerdict::free;

@@ -267,8 +267,8 @@ void bindProblem(py::module_& module) {
       [](const std::string& file) {
         const py::gil_scoped_release unlocked;
         Problem problem = readProblem(file);
-        // Only trees and hulls come from the cache. Meshes are read from their files, since a
-        // script may also verify with this problem, and proofs must not depend on a cache.
+        // Meshes don't come from the cache, as trees, hulls and grids do: a script may also verify
+        // with this problem, and the verifier must not depend on a cache.
         problem.model.cache = userCache();
         if (problem.model.cache && !problem.model.cache->whyUnusable().empty())
           problem.source.notes.push_back({problem.model.cache->whyUnusable(), NoteWeight::detail});

@@ -233,6 +233,34 @@ TEST_F(FileCacheTest, AFileThatCantBeWrittenDoesNotKeepOthersFromIt) {
                                               file.filename().string() + "\": ")));
 }
 
+TEST_F(FileCacheTest, DoesNotKeepAResultThatWouldPushOutTheOthers) {
+  FileCache cache(own_, "code", 20'000);
+  keep(cache, 1);
+  const auto offerOf = [&](std::size_t size) {
+    const std::array<Bytes, 1> inputs = {bytesOf(size)};
+    const Digest key = cache.key("large", inputs);
+    cache.offer(key, [size](CacheFileWriter& writer) { writer.put(std::string(size, 'x')); });
+    cache.save();
+    return cache.find(key, [](CacheFileReader& reader) {
+      std::string text;
+      reader.take(text);
+    });
+  };
+  EXPECT_TRUE(offerOf(10'000));
+  EXPECT_FALSE(offerOf(10'001));
+  EXPECT_EQ(find(cache, 1), resultOf(1));
+  EXPECT_THAT(cache.takeNotes(), IsEmpty());
+}
+
+TEST_F(FileCacheTest, TestsAFolderThatSomebodyElseMade) {
+  FileCache cache(own_, "code");
+  std::filesystem::create_directories(own_);
+  ASSERT_EQ(::chmod(own_.c_str(), 0777), 0);
+  keep(cache, 1);
+  EXPECT_THAT(cache.takeNotes(), ElementsAre(HasSubstr("other users may write to it")));
+  EXPECT_TRUE(files().empty());
+}
+
 TEST_F(FileCacheTest, APipeInPlaceOfAFileIsNotWaitedFor) {
   FileCache cache(own_, "code");
   keep(cache, 1);

@@ -70,7 +70,44 @@ TEST_F(CachedMeshFile, IsReadAsWithoutACache) {
   expectEqualWithCache(file, {.up = 'y'});
   expectEqualWithCache(file, {.metresPerUnit = 0.0254, .up = 'x'});
   const MeshFile read = readMeshFile(file);
-  EXPECT_FALSE(read.notes.empty() || read.statedUnits.empty()) << "the test is about all members";
+  EXPECT_FALSE(read.notes.empty() || read.statedUnits.empty());
+}
+
+/// Values that only Collada and PLY files set: they decide how a robot's reader turns and scales.
+TEST_F(CachedMeshFile, OfOtherFormatsIsReadAsWithoutACache) {
+  const TriangleMesh mesh = tessellatedCube(20);
+  std::ofstream dae(folder_ / "cube.dae");
+  dae << "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>\n"
+         "<asset><unit name='inch' meter='0.0254'/><up_axis>Y_UP</up_axis></asset>\n"
+         "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='f' count='"
+      << 3 * mesh.vertices.size() << "'>";
+  for (const Vec3& v : mesh.vertices) dae << v.transpose() << '\n';
+  dae << "</float_array><technique_common><accessor source='#f' count='" << mesh.vertices.size()
+      << "' stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param "
+         "name='Z' type='float'/></accessor></technique_common></source><vertices id='v'><input "
+         "semantic='POSITION' source='#p'/></vertices><triangles count='"
+      << mesh.triangles.size() << "'><input semantic='VERTEX' source='#v' offset='0'/><p>";
+  for (const auto& t : mesh.triangles) dae << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  dae << "</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+         "<visual_scene id='s'><node><instance_geometry url='#g'/></node></visual_scene>"
+         "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>\n";
+  dae.close();
+  expectEqualWithCache(folder_ / "cube.dae");
+  expectEqualWithCache(folder_ / "cube.dae", {.metresPerUnit = 0.001, .up = 'x'});
+  const MeshFile collada = readMeshFile(folder_ / "cube.dae");
+  EXPECT_TRUE(collada.isCollada);
+  EXPECT_TRUE(collada.facesOnly);
+  EXPECT_EQ(collada.fileUp, 'y');
+
+  std::ofstream ply(folder_ / "cube.ply");
+  ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+      << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& v : mesh.vertices) ply << v.transpose() << '\n';
+  for (const auto& t : mesh.triangles) ply << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  ply.close();
+  expectEqualWithCache(folder_ / "cube.ply");
+  EXPECT_FALSE(readMeshFile(folder_ / "cube.ply").isCollada);
 }
 
 TEST_F(CachedMeshFile, AnotherContentIsReadAnew) {

@@ -390,6 +390,28 @@ TEST(ChainFilter, AsksAboutPairsWhoseHullsMeet) {
   EXPECT_EQ(left, std::vector<std::uint32_t>{7});
 }
 
+TEST(ChainFilter, DoesNotTestPairsThatAreProved) {
+  Case c;
+  c.addJoint(kNone, true, {}, Vec3::UnitX(), 0, 1);
+  for (int i = 0; i < 3; ++i)
+    c.addLink(i == 0 ? 0 : kNone, {}, c.hullOf(placed(Box{Vec3(0.2, 0.2, 0.2)}, {})));
+  c.addPair(false, 1, 0);
+  c.addPair(false, 2, 0);
+  c.scene.pairs[0].number = 7;
+  c.scene.pairs[1].number = 3;
+  const ChainFilter filter(c.scene);
+  MotionOptions options;
+  options.tolerance = 1e-9;
+  ChainFilter::Scratch scratch;
+  std::vector<std::uint32_t> left;
+  std::vector<std::uint8_t> proved(8, 0);
+  filter.pairsLeft(c.motions, options, scratch, left, nullptr, proved);
+  EXPECT_EQ(left, (std::vector<std::uint32_t>{3, 7}));
+  proved[7] = 1;
+  filter.pairsLeft(c.motions, options, scratch, left, nullptr, proved);
+  EXPECT_EQ(left, std::vector<std::uint32_t>{3});
+}
+
 TEST(ChainFilter, TestsLinksAtRest) {
   Case c;
   c.addJoint(kNone, true, {}, Vec3::UnitX(), 0, 1);

@@ -91,8 +91,10 @@ TEST(PairGrid, NeverCoversAnEdgeThatPassesACellWithoutMark) {
     std::uniform_real_distribution<double> value(-3.2, 3.2);
     EdgeOfGrid edge{state(value(random), value(random)), state(value(random), value(random))};
     edge.to = edge.from + part * (edge.to - edge.from);
-    if (n % 7 == 0) edge.to[static_cast<Eigen::Index>(random() % 2)] += 0;  // axis-parallel
-    if (n % 5 == 0) edge.to[0] = edge.from[0];
+    if (n % 5 == 0) {  // along an axis
+      const auto i = static_cast<Eigen::Index>(random() % 2);
+      edge.to[i] = edge.from[i];
+    }
     const bool covers = grid.covers(edge.from, edge.to);
     const bool marked = areMarkedAtSamples(grid, edge);
     EXPECT_TRUE(marked || !covers) << "case " << n;
@@ -101,6 +103,15 @@ TEST(PairGrid, NeverCoversAnEdgeThatPassesACellWithoutMark) {
   }
   EXPECT_GT(covered, passing * 9 / 10) << "edges that pass marked cells only are mostly covered";
   EXPECT_LT(covered, passing + 1);
+}
+
+TEST(PairGrid, NeverCoversHalfATurn) {
+  const PairGrid grid = allBut({turn(0, true)}, {});
+  constexpr double pi = 3.141592653589793;
+  EXPECT_TRUE(grid.covers(state(0, 0), state(3.1, 0)));
+  EXPECT_FALSE(grid.covers(state(0, 0), state(pi, 0))) << "the way is not known";
+  EXPECT_FALSE(grid.covers(state(1, 0), state(1 - pi, 0)));
+  EXPECT_FALSE(grid.covers(state(0, 0), state(NAN, 0)));
 }
 
 /// Edges past the corner of a cell without mark, at distances down to the rounding of doubles.

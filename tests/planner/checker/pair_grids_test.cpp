@@ -7,13 +7,14 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "collision/core/file_cache.h"
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
-#include "tests/support/meshes.h"
+#include "tests/planner/checker/cube_file.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -30,16 +31,13 @@ using Random = std::mt19937_64;
 /// Writes a problem: an arm whose last link can fold back onto its base, by two joints of which one
 /// turns without limits.
 std::filesystem::path writeFoldingArm(const std::filesystem::path& folder) {
-  std::ofstream cube(folder / "cube.obj");
-  const TriangleMesh mesh = test::tessellatedCube(1);  // of size 2
-  for (const Vec3& v : mesh.vertices) cube << "v " << v.transpose() << '\n';
-  for (const auto& t : mesh.triangles)
-    cube << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-  cube.close();
-  const auto link = [](const std::string& name, const std::string& at, const std::string& halves) {
-    return "<link name='" + name + "'><collision><origin xyz='" + at + "' rpy='0.1 0.2 0'/>" +
-           "<geometry><mesh filename='cube.obj' scale='" + halves +
-           "'/></geometry></collision></link>\n";
+  test::writeCube(folder);
+  const auto link = [](const std::string& name, const std::string& at, const std::string& shape) {
+    return "<link name='" + name + "'><collision><origin xyz='" + at +
+           "' rpy='0.1 0.2 0'/><geometry>" + shape + "</geometry></collision></link>\n";
+  };
+  const auto box = [](const std::string& halves) {
+    return "<mesh filename='cube.obj' scale='" + halves + "'/>";
   };
   const auto joint = [](const std::string& parent, const std::string& child,
                         const std::string& rest) {
@@ -47,9 +45,10 @@ std::filesystem::path writeFoldingArm(const std::filesystem::path& folder) {
            "'/><child link='" + child + "'/></joint>\n";
   };
   std::ofstream(folder / "arm.urdf")
-      << "<robot name='folding'>\n" + link("base", "0 0 0", "0.2 0.15 0.1") +
-             link("middle", "0 0 0.1", "0.025 0.025 0.05") +
-             link("end", "0.3 0 0", "0.25 0.05 0.03") +
+      << "<robot name='folding'>\n" +
+             link("base", "0 0 0", "<cylinder radius='0.22' length='0.2'/>") +
+             link("middle", "0 0 0.1", box("0.025 0.025 0.05")) +
+             link("end", "0.3 0 0", box("0.25 0.05 0.03")) +
              joint("base", "middle",
                    "type='continuous'><origin xyz='0.05 0 0.15'/><axis xyz='0.1 0 1'/>") +
              joint("middle", "end",
@@ -122,7 +121,9 @@ TEST_P(PairGridsOf, MarkedCellsKeepTheClearance) {
           const bool isMarked = PairGrid::isMarked(grid.marks(), c, r);
           if (!isMarked)
             outside += distanceAt(valuesAt({column + 0.5, row + 0.5})) < grid.clearance();
-          if (!isMarked || PairGrid::isMarked(grid.marks(), c + 1, r)) continue;
+          const bool isInside = PairGrid::isMarked(grid.marks(), c + 1, r) &&
+                                (r + 1 == rows || PairGrid::isMarked(grid.marks(), c, r + 1));
+          if (!isMarked || isInside) continue;
           for (const double x : {-PairGrid::kWidestTube, 1 + PairGrid::kWidestTube})
             for (const double y : {-PairGrid::kWidestTube, 1 + PairGrid::kWidestTube}) {
               // Distances are computed with a relative error of 1e-3.
@@ -173,42 +174,102 @@ TEST_P(PairGridsOf, ChangeNoVerdict) {
   EXPECT_GT(all, std::string(GetParam()) == "folding" ? 50u : 400u);
 }
 
-TEST_P(PairGridsOf, BelongToBodiesFramesAndLimits) {
-  const auto isFound = [](const Model& model) {
-    const Checker checker(model);
-    return PairGridsAccess::pairs(PairGrids(model, checker.scene(), checker.tube())).size();
-  };
-  const std::size_t all = isFound(problem_.model);
-  ASSERT_GT(all, 0u);
-  for (std::size_t f = 1; f < problem_.model.tree.frames.size(); ++f) {
-    Model moved = problem_.model;
-    Frame& frame = moved.tree.frames[f];
-    if (!frame.moves() || frame.parent == 0) continue;
-    frame.fixed.p.x() = std::nextafter(frame.fixed.p.x(), 10);
-    EXPECT_LT(isFound(moved), all + 1);
-    Model turned = problem_.model;
-    turned.tree.frames[f].axis.x() = std::nextafter(turned.tree.frames[f].axis.x(), 10);
-    EXPECT_LE(isFound(turned), all);
-  }
-  Model moved = problem_.model;
-  for (Frame& frame : moved.tree.frames)
-    if (frame.moves()) frame.fixed.p.x() = std::nextafter(frame.fixed.p.x(), 10);
-  EXPECT_EQ(isFound(moved), 0u);
-  Model larger = problem_.model;
-  for (ModelBody& body : larger.bodies) {
-    if (!body.robot) continue;
-    for (PlacedShape& shape : body.shapes) {
-      if (shape.mesh) {
-        MeshFile other = *shape.mesh;
-        other.mesh.vertices.front().x() = std::nextafter(other.mesh.vertices.front().x(), 10);
-        shape.mesh = std::make_shared<const MeshFile>(std::move(other));
-      } else {
-        shape.parts.front().points.front().x() =
-            std::nextafter(shape.parts.front().points.front().x(), 10);
+std::size_t gridsFoundOf(const Model& model) {
+  const Checker checker(model);
+  return PairGridsAccess::pairs(PairGrids(model, checker.scene(), checker.tube())).size();
+}
+
+TEST_P(PairGridsOf, BelongToTheBodies) {
+  ASSERT_GT(gridsFoundOf(problem_.model), 0u);
+  const auto changed = [&](const auto& change) {
+    Model model = problem_.model;
+    for (ModelBody& body : model.bodies) {
+      if (!body.robot) continue;
+      for (PlacedShape& shape : body.shapes) {
+        MeshFile mesh = shape.mesh ? *shape.mesh : MeshFile();
+        change(shape, mesh.mesh);
+        if (shape.mesh) shape.mesh = std::make_shared<const MeshFile>(std::move(mesh));
       }
     }
+    return gridsFoundOf(model);
+  };
+  EXPECT_EQ(changed([](PlacedShape&, TriangleMesh&) {}), gridsFoundOf(problem_.model));
+  EXPECT_EQ(changed([](PlacedShape& shape, TriangleMesh& mesh) {
+              double& x =
+                  shape.mesh ? mesh.vertices.front().x() : shape.parts.front().points.front().x();
+              x = std::nextafter(x, 10);
+            }),
+            0u);
+  EXPECT_EQ(changed([](PlacedShape& shape, TriangleMesh& mesh) {
+              if (shape.mesh) std::swap(mesh.triangles.front(), mesh.triangles.back());
+            }),
+            0u);
+  if (std::string(GetParam()) != "folding") return;  // there, one of the bodies is a cylinder
+  EXPECT_EQ(changed([](PlacedShape& shape, TriangleMesh&) {
+              if (!shape.mesh) shape.parts.front().radius *= 1.1;
+            }),
+            0u);
+  EXPECT_EQ(changed([](PlacedShape& shape, TriangleMesh&) {
+              if (!shape.mesh) shape.parts.front().flatEnds = false;
+            }),
+            0u);
+  EXPECT_EQ(changed([](PlacedShape& shape, TriangleMesh&) {
+              if (shape.mesh) shape.solid = true;
+            }),
+            0u)
+      << "a body may be inside a solid mesh";
+}
+
+/// The only pair with a grid depends on each of these.
+TEST(PairGrids, BelongToTheFramesAndLimits) {
+  const std::filesystem::path folder = test::newFolder();
+  const Problem problem = readProblem(writeFoldingArm(folder));
+  Model model = problem.model;
+  model.cache = std::make_shared<FileCache>(folder / "cache", "code");
+  {
+    const Checker checker(model);
+    PairGrids::compute(model, checker.scene());
+    model.cache->save();
   }
-  EXPECT_EQ(isFound(larger), 0u);
+  ASSERT_EQ(gridsFoundOf(model), 1u);
+  const auto changed = [&](const auto& change) {
+    std::size_t most = 0;
+    for (std::size_t f = 1; f < model.tree.frames.size(); ++f) {
+      if (!model.tree.frames[f].moves()) continue;
+      Model other = model;
+      change(other.tree.frames[f]);
+      most = std::max(most, gridsFoundOf(other));
+    }
+    return most;
+  };
+  EXPECT_EQ(changed([](Frame&) {}), 1u);
+  EXPECT_EQ(changed([](Frame& f) { f.fixed.p.x() = std::nextafter(f.fixed.p.x(), 10); }), 0u);
+  EXPECT_EQ(changed([](Frame& f) { f.fixed.q.x() += 1e-15; }), 0u);
+  EXPECT_EQ(changed([](Frame& f) { f.axis.x() = std::nextafter(f.axis.x(), 10); }), 0u);
+  EXPECT_EQ(changed([](Frame& f) { f.joint = Frame::Joint::prismatic; }), 0u);
+  EXPECT_EQ(changed([](Frame& f) { f.multiplier = -1; }), 0u);
+  EXPECT_EQ(changed([](Frame& f) { f.offset = 1e-15; }), 0u);
+  EXPECT_EQ(changed([](Frame& f) { f.variable = 1 - f.variable; }), 0u) << "one joint, twice";
+  Model exchanged = model;  // each joint is moved by the other one's number
+  for (Frame& frame : exchanged.tree.frames)
+    if (frame.moves()) frame.variable = 1 - frame.variable;
+  EXPECT_EQ(gridsFoundOf(exchanged), 0u);
+
+  const auto withLimits = [&](double lower, double upper) {
+    Model other = model;
+    other.space = ConfigurationSpace();
+    CoordinateGroup group = model.space.groups().front();
+    for (Coordinate c : model.space.coordinates()) {
+      if (c.kind == Coordinate::Kind::line) c.lower = lower, c.upper = upper;
+      other.space.add(c);
+    }
+    other.space.addGroup(group);
+    return gridsFoundOf(other);
+  };
+  EXPECT_EQ(withLimits(-2, 1.9), 1u);
+  EXPECT_EQ(withLimits(-2, std::nextafter(1.9, 9)), 0u);
+  EXPECT_EQ(withLimits(std::nextafter(-2.0, 9), 1.9), 0u);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_P(PairGridsOf, AWideTubeUsesNoGrid) {
