@@ -52,13 +52,16 @@ class EnclosureTest {
     return Posed(placed.body, X_WF_[placed.frame]);
   }
 
-  /// Returns whether the bounding spheres of two bodies meet, up to 2^-20 of the lengths, which
-  /// exceeds all rounding. Boxes are more exact, but take far longer.
+  /// Returns whether a point of the inner body is in the cube about the outer body's sphere, up to
+  /// 2^-20 of the lengths, which exceeds all rounding. The outer body's box in the world is in this
+  /// cube. Boxes are more exact, but take far longer.
   static bool isNear(const Posed<Body>& outer, const Posed<Body>& inner) {
-    const Vec3 a = outer.X_W * outer.shape.sphereCenter(),
-               b = inner.X_W * inner.shape.sphereCenter();
-    const double radii = outer.shape.sphereRadius() + inner.shape.sphereRadius();
-    return (a - b).stableNorm() <= radii + 0x1p-20 * (radii + a.stableNorm() + b.stableNorm());
+    const TriangleMesh& mesh = inner.shape.mesh();
+    const Vec3& point =
+        inner.shape.isMesh() ? mesh.corner(0, 0) : inner.shape.parts().front().points.front();
+    const Vec3 p = inner.X_W * point, center = outer.X_W * outer.shape.sphereCenter();
+    const double slack = 0x1p-20 * (p.stableNorm() + center.stableNorm());
+    return (p - center).lpNorm<Eigen::Infinity>() <= outer.shape.sphereRadius() + slack;
   }
 
   const Corners& boxOf(std::size_t shape) {

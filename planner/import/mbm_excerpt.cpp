@@ -99,14 +99,22 @@ class SetScanner {
       } else if (c == '}' || c == ']') {
         if (depth == 0) return false;
         --depth, ++at_;
+      } else if (depth > 0) {
+        skipToBracketOrQuote();
       } else {
-        at_ =
-            depth > 0 ? text_.find_first_of("\"{}[]", at_) : text_.find_first_of(",]} \t\r\n", at_);
+        at_ = text_.find_first_of(",]} \t\r\n", at_);
         if (at_ == text_.npos) return false;
       }
       if (depth == 0) return true;
     }
     return false;
+  }
+  /// `find_first_of` takes three times as long, and most of the text is skipped here.
+  void skipToBracketOrQuote() {
+    const auto isSought = [](char c) {
+      return c == '"' || c == '{' || c == '}' || c == '[' || c == ']';
+    };
+    while (at_ < text_.size() && !isSought(text_[at_])) ++at_;
   }
   void skipBlanks() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
   bool take(char c) {
@@ -127,16 +135,23 @@ class SetScanner {
 std::string excerptOfSet(std::string text, const std::string& index) {
   const auto problems = SetScanner(text).problems();
   if (!problems) return text;
+  std::string excerpt;
+  std::size_t taken = 0;
   for (const ProblemText& problem : *problems) {
     if (problem.index == index) continue;
-    const auto blank = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (text[i] != '\n') text[i] = ' ';
+    // Takes the text up to `begin`, and of the text up to `end` the line ends only.
+    const auto leaveOut = [&](std::size_t begin, std::size_t end) {
+      excerpt.append(text, taken, begin - taken);
+      excerpt.append(static_cast<std::size_t>(std::count(text.begin() + std::ptrdiff_t(begin),
+                                                         text.begin() + std::ptrdiff_t(end), '\n')),
+                     '\n');
+      taken = end;
     };
-    blank(problem.begin + 1, problem.keyBegin);
-    blank(problem.valueEnd, problem.end - 1);
+    leaveOut(problem.begin + 1, problem.keyBegin);
+    leaveOut(problem.valueEnd, problem.end - 1);
   }
-  return text;
+  excerpt.append(text, taken);
+  return excerpt;
 }
 
 }  // namespace corridor
