@@ -111,10 +111,22 @@ Configuration stateOf(const ConfigurationSpace& space, Random& random) {
   for (const Coordinate& c : space.coordinates()) {
     const bool isLimited = c.kind == Coordinate::Kind::line && std::isfinite(c.upper - c.lower);
     const double most = random() % 4 == 0 ? 50 : 3.3;  // several turns
-    q[static_cast<Eigen::Index>(c.first)] = !isLimited ? uniform(random, -most, most)
-                                            : random() % 20 == 0
-                                                ? c.upper
-                                                : uniform(random, c.lower, c.upper);
+    double& number = q[static_cast<Eigen::Index>(c.first)];
+    if (!isLimited) {
+      number = uniform(random, -most, most);
+      continue;
+    }
+    const double width = c.upper - c.lower;
+    switch (random() % 10) {
+      case 0:
+        number = c.upper;
+        break;
+      case 1:  // a grid ends at the limits
+        number = uniform(random, c.lower - width, c.upper + width);
+        break;
+      default:
+        number = uniform(random, c.lower, c.upper);
+    }
   }
   return q;
 }

@@ -255,6 +255,26 @@ TEST(PairGrids, BelongToTheFramesAndLimits) {
     if (frame.moves()) frame.variable = 1 - frame.variable;
   EXPECT_EQ(gridsFoundOf(exchanged), 0u);
 
+  // Of three frames and two numbers, the third is moved by the first number, or by the second.
+  std::vector<std::size_t> moving;
+  for (std::size_t f = 1; f < model.tree.frames.size(); ++f)
+    if (model.tree.frames[f].moves()) moving.push_back(f);
+  ASSERT_EQ(moving.size(), 2u);
+  Model three = model;
+  Frame third = three.tree.frames[moving[1]];
+  third.parent = moving[1];
+  const std::size_t tip = three.tree.add(third);
+  for (ModelBody& body : three.bodies)
+    if (body.frame == moving[1]) body.frame = tip;
+  {
+    const Checker checker(three);
+    PairGrids::compute(three, checker.scene());
+    three.cache->save();
+  }
+  ASSERT_EQ(gridsFoundOf(three), 1u);
+  three.tree.frames[tip].variable = 1 - third.variable;
+  EXPECT_EQ(gridsFoundOf(three), 0u);
+
   const auto withLimits = [&](double lower, double upper) {
     Model other = model;
     other.space = ConfigurationSpace();
