@@ -68,10 +68,11 @@ bool isNameOfKey(const std::filesystem::path& name) {
 
 /// Returns the files of a cache, in any order. Removes drafts of `tryWriteWhole` that are older
 /// than `age`: those of programs that were killed.
-std::vector<CachedFile> filesIn(const std::filesystem::path& folder,
+/// @param error set if the folder can't be read.
+std::vector<CachedFile> filesIn(const std::filesystem::path& folder, std::error_code& error,
                                 std::chrono::seconds age = std::chrono::hours(1)) {
   std::vector<CachedFile> files;
-  std::error_code error;
+  error.clear();
   std::filesystem::directory_iterator each(folder, error);
   for (; !error && each != std::filesystem::directory_iterator(); each.increment(error)) {
     std::error_code gone;  // another program may have removed it
@@ -98,14 +99,14 @@ std::uint64_t sumOf(const std::vector<CachedFile>& files) {
 
 /// Removes the files that were not used for longest, until the others have at most `most` bytes.
 void removeOldest(const std::filesystem::path& folder, std::uint64_t most) {
-  std::vector<CachedFile> files = filesIn(folder);
+  std::error_code none;
+  std::vector<CachedFile> files = filesIn(folder, none);
   std::uint64_t total = sumOf(files);
   if (total <= most) return;
   std::sort(files.begin(), files.end(),
             [](const CachedFile& a, const CachedFile& b) { return a.time < b.time; });
   for (const CachedFile& oldest : files) {
     if (total <= most) break;
-    std::error_code none;
     std::filesystem::remove(oldest.file, none);
     total -= oldest.bytes;
   }
@@ -184,7 +185,8 @@ void FileCache::save() {
   if (!noFolder && ::mkdir(folder_.c_str(), S_IRWXU) != 0 && errno != EEXIST)
     noFolder = {errno, std::generic_category()};
   // Somebody else may have made the folder since the constructor looked.
-  const std::string whyNone = noFolder ? noFolder.message() : whyNotOwn(folder_);
+  const std::string whyNone =
+      noFolder ? "the folder can't be made: " + noFolder.message() : whyNotOwn(folder_);
   for (const auto& [key, put] : offered) {
     const std::filesystem::path file = fileOf(key);
     const auto failure = whyNone.empty() ? write(file, key, put) : std::error_code();
@@ -199,18 +201,27 @@ void FileCache::save() {
 
 std::uint64_t FileCache::clear() {
   std::uint64_t removed = 0;
-  for (const CachedFile& each : filesIn(folder_, std::chrono::seconds(0))) {
+  std::error_code error;
+  for (const CachedFile& each : filesIn(folder_, error, std::chrono::seconds(0))) {
     std::error_code failure;
     removed += std::filesystem::remove(each.file, failure);
     const std::lock_guard lock(mutex_);
     if (failure) unremoved_.add(quotedName(each.file) + ": " + failure.message());
   }
+  noteUnread(error);
   return removed;
 }
 
 FileCache::Size FileCache::size() const {
-  const std::vector<CachedFile> files = filesIn(folder_);
+  std::error_code error;
+  const std::vector<CachedFile> files = filesIn(folder_, error);
+  noteUnread(error);
   return {files.size(), sumOf(files)};
+}
+
+void FileCache::noteUnread(const std::error_code& error) const {
+  const std::lock_guard lock(mutex_);
+  if (error && error != std::errc::no_such_file_or_directory) whyUnread_ = error.message();
 }
 
 std::vector<std::string> FileCache::takeNotes() {
@@ -224,6 +235,9 @@ std::vector<std::string> FileCache::takeNotes() {
                       (events.count == 1 ? " (" : " (the first: ") + events.first + ")");
     events = {};
   };
+  if (!whyUnread_.empty())
+    notes.push_back("the cache in " + folder_.string() +
+                    " can't be read: " + std::exchange(whyUnread_, ""));
   note(damaged_, "had damaged contents, which are not used");
   note(unremoved_, "could not be removed");
   note(unwritten_, "could not be written");

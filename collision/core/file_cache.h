@@ -88,6 +88,7 @@ class FileCache {
     }
   };
   std::filesystem::path fileOf(const Digest& key) const;
+  void noteUnread(const std::error_code& error) const;
   /// Writes a result. @returns nothing if it is too large to be kept.
   std::optional<std::error_code> write(const std::filesystem::path& file, const Digest& key,
                                        const Put& put) const;
@@ -100,6 +101,7 @@ class FileCache {
   std::vector<std::pair<Digest, Put>> offered_;
   mutable Counts counts_;
   mutable Events damaged_, unwritten_, unremoved_;
+  mutable std::string whyUnread_;  // the list of its files, or ""
   bool saidUnusable_ = false;
 };
 

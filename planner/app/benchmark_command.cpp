@@ -148,6 +148,7 @@ Campaign campaignOf(const BenchmarkArguments& a) {
     problem.model.cache = cache;
     fillCache(problem.model);
   }
+  printCacheNotes(cache->takeNotes());
   campaign.notes.emplace_back(
       "Corridor's checkers find trees, hulls and grids of pairs of links in the cache, which was "
       "filled before the runs (--cache)");

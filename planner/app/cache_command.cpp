@@ -52,6 +52,7 @@ std::string sizeText(std::uint64_t bytes) {
 void show() {
   const auto cache = requireCache();
   const FileCache::Size size = cache->size();
+  requireNoNotes(*cache);
   const ResultPrinter out(false);
   out.line("folder", cache->folder().string());
   out.line("files", grouped(size.files));
@@ -98,7 +99,7 @@ void addCache(CLI::App& program, int& status) {
       "build", "Compute now what later commands need of the large meshes of robots and problems");
   builder
       ->add_option("ROBOT|PROBLEM", *files,
-                   "URDFs, robot.yaml files or folders of robots; or problems as for solve")
+                   "URDFs, robot.yaml files or a robot's folder; or problems as for solve")
       ->required();
   builder->callback([files, &status] {
     build(*files);

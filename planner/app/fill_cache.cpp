@@ -11,10 +11,12 @@ namespace corridor::app {
 
 std::shared_ptr<FileCache> requireCache() {
   auto cache = userCache();
+  const char* const value =
+      std::getenv("CORRIDOR_CACHE");  // NOLINT(concurrency-mt-unsafe): only read
   if (!cache)
     throw InputError(Fault{
         "corridor", 0,
-        std::getenv("CORRIDOR_CACHE")  // NOLINT(concurrency-mt-unsafe): only read
+        value && *value
             ? "there is no cache, since the variable CORRIDOR_CACHE turns it off"
             : "there is no cache, since neither CORRIDOR_CACHE nor XDG_CACHE_HOME nor HOME names a "
               "folder"});

@@ -35,6 +35,7 @@ constexpr std::array kMessages = {
     Message{"did not find expected ',' or ']'", "a comma or a ] is missing, here or above"},
     Message{"found unexpected document indicator", "a quote on this line is not closed"},
     Message{"found unexpected end of stream", "a quote on this line is not closed"},
+    Message{"found unexpected ':'", "a blank is missing behind a colon on this line"},
     Message{"block sequence entries are not allowed in this context", kItemInside},
     Message{"mapping values are not allowed in this context",
             "a colon can't be here; perhaps this line or the line above lacks a colon or the blank "
@@ -84,6 +85,11 @@ YamlEvents::Fault YamlEvents::explained() const {
   const bool isHere = static_cast<std::size_t>(line) == mark.line && mark.column < written.size();
   if (!isQuote && written.substr(0, indent).find('\t') != written.npos)
     return {line, "the line is indented by a tab; use blanks"};
+  if (problem == "did not find expected <document start>") {
+    if (text_.starts_with('%')) return {line, "--- is missing below the lines that begin with %"};
+    if (line > 0 && lineOf(text_, line - 1).starts_with("..."))
+      return {line, "nothing may follow the line ..."};
+  }
   if (isKey || problem == "did not find expected key" ||
       problem == "did not find expected '-' indicator" ||
       problem == "did not find expected <document start>") {
@@ -98,6 +104,9 @@ YamlEvents::Fault YamlEvents::explained() const {
     if (' ' < first && first < 0x7f)
       return {line, std::string("a text that begins with ") + first + " must be in quotes"};
   }
+  if (context == "while scanning an alias" || context == "while scanning an anchor")
+    return {line, std::string("a text that begins with ") +
+                      (context.ends_with("alias") ? '*' : '&') + " must be in quotes"};
   if (problem == "did not find expected node content") {
     if (!isHere) return {line, "a } or a ] is missing, here or above"};
     return {line, written[mark.column] == '-' ? kItemInside : "a value is missing here"};

@@ -226,6 +226,13 @@ std::string parseNumber(const YamlValue& value, Range range, double& number) {
   return "the number " + value.text + " is in quotes; remove them";
 }
 
+/// Returns a hint for a value that would be right without quotes, or "".
+std::string hintOnQuotes(const YamlValue& value, bool isRight) {
+  return value.kind == YamlValue::Kind::Scalar && !value.isPlain && isRight
+             ? "; write it without quotes"
+             : "";
+}
+
 }  // namespace
 
 std::optional<double> readNumber(const YamlValue& value, Range range, const std::string& path,
@@ -263,20 +270,20 @@ std::optional<std::uint64_t> YamlMap::wholeNumber(std::string_view key,
   std::uint64_t result = 0;
   const char* const end = value->text.data() + value->text.size();
   const auto [stop, error] = std::from_chars(value->text.data(), end, result);
-  if (value->kind == YamlValue::Kind::Scalar && value->isPlain && stop == end &&
-      error == std::errc() && range.least <= result && result <= range.most)
-    return result;
-  fault(key,
-        "a whole number from " + std::string(range.words) + " is needed, not " + described(*value));
+  const bool isRight = value->kind == YamlValue::Kind::Scalar && stop == end &&
+                       error == std::errc() && range.least <= result && result <= range.most;
+  if (isRight && value->isPlain) return result;
+  fault(key, "a whole number from " + std::string(range.words) + " is needed, not " +
+                 described(*value) + hintOnQuotes(*value, isRight));
   return std::nullopt;
 }
 
 std::optional<bool> YamlMap::boolean(std::string_view key) const {
   const YamlValue* value = find(key);
   if (!value) return std::nullopt;
-  if (value->isPlain && value->text == "true") return true;
-  if (value->isPlain && value->text == "false") return false;
-  fault(key, "true or false is needed, not " + described(*value));
+  const bool isRight = value->text == "true" || value->text == "false";
+  if (isRight && value->isPlain) return value->text == "true";
+  fault(key, "true or false is needed, not " + described(*value) + hintOnQuotes(*value, isRight));
   return std::nullopt;
 }
 

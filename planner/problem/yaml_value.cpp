@@ -18,14 +18,14 @@ bool hasWideCharacters(const std::string& text) {
   return text.find('\0') != text.npos;
 }
 
-/// Returns whether a line looks like a key with its value, or like an item of a list.
-bool looksLikeKeyOrItem(std::string_view line) {
-  const std::string_view blanks = " \t\r";
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  if (line.starts_with("- ")) return true;
-  const std::size_t end = std::min(line.find_first_of(" \t\r:"), line.size());
-  return end > 0 && end < line.size() && line[end] == ':' &&
-         (end + 1 == line.size() || blanks.find(line[end + 1]) != blanks.npos);
+/// Returns whether a line looks like a key with its value, like an item of a list, or like a part
+/// of a list or map in brackets.
+bool looksLikeYaml(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  if (first == line.npos) return false;
+  line = line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
+  return line.starts_with("- ") || line.ends_with(':') || line.find(": ") != line.npos ||
+         line.find(":\t") != line.npos || line.find_first_of("{}[]") != line.npos;
 }
 
 /// The start of the standard tags: of "!!str", for example.
@@ -66,7 +66,7 @@ bool isNull(std::string_view text) {
 class TreeBuilder {
  public:
   TreeBuilder(const std::string& file, std::string_view text, const YamlLimits& limits)
-      : file_(file), text_(text), limits_(limits) {}
+      : file_(file), rest_(text), limits_(limits) {}
 
   /// Returns the document. @throws InputError if a key is no word.
   YamlValue take() {
@@ -124,6 +124,8 @@ class TreeBuilder {
     scalar.isPlain = hasNone || isAngle || isPlainTag(tag);
     if (hasNone && isNull(scalar.text)) scalar.kind = YamlValue::Kind::Null;
     if (isQuoted) checkQuotes(event.start_mark, event.end_mark);
+    if (scalar.text.find('\0') != scalar.text.npos)
+      fail(line, "a text with a zero byte (\\0) is not read here");
     put(std::move(scalar));
   }
 
@@ -154,19 +156,25 @@ class TreeBuilder {
     if (open.line == close.line) return;
     firstLineOfQuotes_ = static_cast<int>(open.line);
     lastLineOfQuotes_ = static_cast<int>(close.line);
-    std::string_view rest = text_;
-    for (std::size_t line = 0; line <= close.line && !rest.empty(); ++line) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
+    skipTo(open.line);
+    for (std::size_t line = open.line; line <= close.line && !rest_.empty(); ++line) {
+      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
       // The column counts characters, of which each has a byte or more: no key is left out.
       const std::string_view inside =
-          line == close.line ? rest.substr(0, std::min(end, close.column)) : rest.substr(0, end);
-      if (line > open.line && looksLikeKeyOrItem(inside))
+          rest_.substr(0, line == close.line ? std::min(end, close.column) : end);
+      if (line > open.line && looksLikeYaml(inside))
         fail(firstLineOfQuotes_, "a quote on this line is closed only on line " +
                                      std::to_string(lastLineOfQuotes_ + 1) +
                                      ", behind what looks like a key or an item; is a quote "
                                      "missing? If not, write the text on one line");
-      rest.remove_prefix(std::min(end + 1, rest.size()));
+      if (line < close.line) skipTo(line + 1);
     }
+  }
+
+  /// Drops the lines before a line from `rest_`. Quotes come in the order of their lines.
+  void skipTo(std::size_t line) {
+    for (; lineOfRest_ < line; ++lineOfRest_)
+      rest_.remove_prefix(std::min(std::min(rest_.find('\n'), rest_.size()) + 1, rest_.size()));
   }
 
   void open(YamlValue value) {
@@ -213,7 +221,8 @@ class TreeBuilder {
   }
 
   std::string file_;
-  std::string_view text_;
+  std::string_view rest_;  ///< the text from a line on
+  std::size_t lineOfRest_ = 0;
   YamlLimits limits_;
   YamlValue root_;
   std::vector<Open> open_;
@@ -262,7 +271,8 @@ YamlValue parseYaml(const std::string& file, const std::string& given, const Yam
   YamlEvents events(isWide ? std::string_view(text) : utf8);
   for (int documents = 0; const yaml_event_t* const event = events.next();) {
     if (event->type == YAML_DOCUMENT_START_EVENT && ++documents > 1)
-      throw InputError(Fault{file, 0, "has more than one YAML document (---); keep one"});
+      throw InputError(Fault{file, static_cast<int>(event->start_mark.line) + 1,
+                             "has more than one YAML document (---); keep one"});
     document.add(*event);
   }
   if (const auto& fault = events.fault())

@@ -209,9 +209,12 @@ TEST_F(FileCacheTest, SaysWhyItCantBeWritten) {
   FileCache cache(nowhere, "code");
   offer(cache, 1);
   keep(cache, 2);
-  EXPECT_THAT(cache.takeNotes(),
-              ElementsAre("in the cache " + nowhere.string() +
-                          ", 2 files could not be written (the first: No such file or directory)"));
+  EXPECT_THAT(
+      cache.takeNotes(),
+      ElementsAre(
+          "in the cache " + nowhere.string() +
+          ", 2 files could not be written (the first: the folder can't be made: No such file or "
+          "directory)"));
   EXPECT_EQ(cache.counts().written, 0u);
   EXPECT_EQ(cache.counts().failed, 2u);
 }

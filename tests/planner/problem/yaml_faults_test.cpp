@@ -33,7 +33,8 @@ TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
   for (const char* text :
        {"seed: 1\nplanner: \"RRT\nmargin: 1\nallow: [[\"a\", b]]\n",
         "name: \"x\nmargin: 1\n\n# of 30\"\n", "seed: 1\nname: 'x\n at: [0, 0]\n # the robots'\n",
-        "allow:\n - [\"a, b]\n\n - [c, \"]\n"}) {
+        "allow:\n - [\"a, b]\n\n - [c, \"]\n", "seed: 1\nname: 'x\n can 1: {}\n y'\n",
+        "seed: 1\nname: 'x\n margin : 1\n y'\n", "seed: 1\nname: 'x\n margin:\n y'\n"}) {
     const std::string line = text[0] == 's' || text[0] == 'a' ? "9" : "8";
     EXPECT_EQ(with(text),
               "problem.yaml:" + line +
@@ -45,6 +46,11 @@ TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
   EXPECT_EQ(with("name: \"a\n b\" c\n"),
             "problem.yaml:9: is not YAML: nothing may follow the value on this line; the quote on "
             "line 8 is closed only here: is one missing?");
+}
+
+TEST_F(YamlFaults, AZeroByteInAText) {
+  EXPECT_EQ(with("planner: {name: \"RRT\\0x\"}\n"),
+            "problem.yaml:8: a text with a zero byte (\\0) is not read here");
 }
 
 TEST_F(YamlFaults, QuotesMayHaveSeveralLines) {
@@ -120,6 +126,16 @@ TEST_F(YamlFaults, Syntax) {
   expectFault("planner: {name: RRT, time:3}\n",
               "8: unknown key \"time:3\" in planner; write a blank after the colon (known: name, "
               "time, stop, restart, params)");
+  expectFault("base: {at:[0, 0, 1]}\n",
+              "8: is not YAML: a blank is missing behind a colon on this line");
+  expectFault("planner: {name: *.urdf}\n",
+              "8: is not YAML: a text that begins with * must be in quotes");
+  expectFault("...\nmargin: 1\n", "9: is not YAML: nothing may follow the line ...");
+  expectFault("seed: \"3\"\n",
+              "8: seed: a whole number from 0 to 2^64 - 1 is needed, not \"3\"; write it without "
+              "quotes");
+  EXPECT_EQ(complaintOf("%YAML 1.2\n" + head + poses),
+            "problem.yaml:2: is not YAML: --- is missing below the lines that begin with %");
   expectFault("allow: [[a, b], , ]\n", "8: is not YAML: a value is missing here");
   expectFault("margin: 1\n# bell: \a\n", "9: is not YAML: control characters are not allowed");
   for (const char* text : {"margin: [1, 2],\n", "margin: [1, 2] m\n", "margin: \"A\" \"B\"\n"})
@@ -140,8 +156,8 @@ TEST_F(YamlFaults, Syntax) {
   EXPECT_EQ(with("# first\rmargin: x\r\n"),
             "problem.yaml:9: margin: a number is needed, not \"x\"");
   EXPECT_EQ(with("---\n---\na: 1\n"),
-            "problem.yaml: has more than one YAML document (---); keep one");
-  EXPECT_EQ(with("---\na: 1\n"), "problem.yaml: has more than one YAML document (---); keep one");
+            "problem.yaml:8: has more than one YAML document (---); keep one");
+  EXPECT_EQ(with("---\na: 1\n"), "problem.yaml:8: has more than one YAML document (---); keep one");
 }
 
 }  // namespace

@@ -329,7 +329,7 @@ TEST_F(TrajectoryFile, EveryFaultOfMessagesIsOneLineWithItsPlace) {
             "t.csv:4: points[1].positions: the list is cut off (...); record it by ros2 topic echo "
             "--full-length");
   EXPECT_EQ(complaint(names + first + "---\n" + names + first),
-            "t.csv: has more than one YAML document (---); keep one");
+            "t.csv:4: has more than one YAML document (---); keep one");
   EXPECT_EQ(complaint("trajectory:\n- {joint_names: [pan], points: [{}]}\n- {joint_names: [pan], "
                       "points: [{}]}\n"),
             "t.csv:3: has 2 trajectories; keep one of them");
