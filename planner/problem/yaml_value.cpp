@@ -124,8 +124,6 @@ class TreeBuilder {
     scalar.isPlain = hasNone || isAngle || isPlainTag(tag);
     if (hasNone && isNull(scalar.text)) scalar.kind = YamlValue::Kind::Null;
     if (isQuoted) checkQuotes(event.start_mark, event.end_mark);
-    if (scalar.text.find('\0') != scalar.text.npos)
-      fail(line, "a text with a zero byte (\\0) is not read here");
     put(std::move(scalar));
   }
 

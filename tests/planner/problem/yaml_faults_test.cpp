@@ -48,11 +48,6 @@ TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
             "line 8 is closed only here: is one missing?");
 }
 
-TEST_F(YamlFaults, AZeroByteInAText) {
-  EXPECT_EQ(with("planner: {name: \"RRT\\0x\"}\n"),
-            "problem.yaml:8: a text with a zero byte (\\0) is not read here");
-}
-
 TEST_F(YamlFaults, QuotesMayHaveSeveralLines) {
   for (const char* text :
        {"planner: \"a\n  b\"\n", "planner: 'a\n\n  b'\n# 'x\n", "planner: 'it''s\n a b'"})
