@@ -42,8 +42,8 @@ inline Bytes bytesOf(const std::string& text) {
 }
 
 /// A digest of 128 bits: XXH3 (Y. Collet, xxHash 0.8). It is fast, but not made against an
-/// attacker. Two inputs that nobody chose for this purpose have the same digest with a probability
-/// of about 2^-128.
+/// attacker. Two inputs that were not chosen for this purpose have the same digest with a
+/// probability of about 2^-128.
 struct Digest {
   std::uint64_t high = 0, low = 0;
   bool operator==(const Digest&) const = default;

@@ -25,7 +25,7 @@ namespace corridor {
 /// A file is used only if its checksum holds for all its bytes. A damaged file counts as none, and
 /// is removed. A file appears in its folder as a whole, so many programs may use the folder at the
 /// same time. A checksum is no protection against files that somebody makes on purpose. So the
-/// folder must belong to the user, and nobody else may have the right to write to it. Files that
+/// folder must belong to the user, and no other user may have the right to write to it. Files that
 /// have other names than a cache gives stay as they are.
 ///
 /// Thread safety: all functions but `save` may be called from several threads at once.

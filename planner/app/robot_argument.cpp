@@ -11,6 +11,19 @@
 #include "planner/robot/urdf_file.h"
 
 namespace corridor::app {
+namespace {
+
+/// Returns whether a file is a `robot.yaml`. @throws InputError if it can't be read as YAML.
+bool isRobotFile(const std::string& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return false;
+  const YamlValue document = parseYaml(file, readTextFile(file, "a problem or a robot"));
+  return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
+    return entry.key == "format" && entry.value.text.starts_with("corridor-robot-");
+  });
+}
+
+}  // namespace
 
 InputKind inputKindOf(const std::string& file) {
   const std::string extension = lowered(std::filesystem::path(file).extension().string());
@@ -24,15 +37,6 @@ InputKind inputKindOf(const std::string& file) {
   const bool problem = yaml || std::filesystem::is_directory(file, none) || extension == ".cfg" ||
                        file.find(".json") != file.npos;
   return problem ? InputKind::problem : InputKind::mesh;
-}
-
-bool isRobotFile(const std::string& file) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) return false;
-  const YamlValue document = parseYaml(file, readTextFile(file, "a problem or a robot"));
-  return std::any_of(document.entries.begin(), document.entries.end(), [](const auto& entry) {
-    return entry.key == "format" && entry.value.text.starts_with("corridor-robot-");
-  });
 }
 
 std::string robotInFolder(const std::filesystem::path& folder) {

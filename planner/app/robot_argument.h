@@ -12,9 +12,6 @@ enum class InputKind { robot, problem, mesh };
 /// @throws InputError for an SRDF, or if a YAML file can't be read.
 InputKind inputKindOf(const std::string& file);
 
-/// Returns whether a file is a `robot.yaml`. @throws InputError if it can't be read as YAML.
-bool isRobotFile(const std::string& file);
-
 /// Returns the robot of a folder: its robot.yaml, or else its only URDF. Returns "" for a folder
 /// that contains a problem, and for anything that is not a folder.
 /// @throws InputError if a folder contains neither a problem nor a robot.yaml, and has no URDF or

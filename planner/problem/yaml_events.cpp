@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <new>
 
+#include "collision/core/text_encoding.h"
+
 namespace corridor {
 namespace {
 
@@ -44,6 +46,13 @@ constexpr std::array kMessages = {
 
 }  // namespace
 
+std::size_t byteOfColumn(std::string_view line, std::size_t column) {
+  std::size_t at = 0;
+  for (; column > 0 && at < line.size(); --column)
+    at += std::max<std::size_t>(characterAt(line, at).bytes, 1);
+  return std::min(at, line.size());
+}
+
 YamlEvents::YamlEvents(std::string_view text) : text_(text), parser_(), event_() {
   if (!yaml_parser_initialize(&parser_)) throw std::bad_alloc();
   yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()),
@@ -82,7 +91,8 @@ YamlEvents::Fault YamlEvents::explained() const {
   const int line = std::clamp(static_cast<int>(mark.line), 0, linesOf(text_) - 1);
   const std::string_view written = lineOf(text_, line);
   const std::size_t indent = std::min(written.find_first_not_of(" \t"), written.size());
-  const bool isHere = static_cast<std::size_t>(line) == mark.line && mark.column < written.size();
+  const std::size_t at = byteOfColumn(written, mark.column);
+  const bool isHere = static_cast<std::size_t>(line) == mark.line && at < written.size();
   if (!isQuote && written.substr(0, indent).find('\t') != written.npos)
     return {line, "the line is indented by a tab; use blanks"};
   if (problem == "did not find expected <document start>") {
@@ -93,14 +103,13 @@ YamlEvents::Fault YamlEvents::explained() const {
   if (isKey || problem == "did not find expected key" ||
       problem == "did not find expected '-' indicator" ||
       problem == "did not find expected <document start>") {
-    if (!isKey && isHere && indent < mark.column)
-      return {line, "nothing may follow the value on this line"};
+    if (!isKey && isHere && indent < at) return {line, "nothing may follow the value on this line"};
     return {line,
             "\"key: value\" or \"- value\" is needed here, indented like the lines above it, and "
             "with a blank after the colon or the minus"};
   }
   if (problem == "found character that cannot start any token" && isHere) {
-    const char first = written[mark.column];
+    const char first = written[at];
     if (' ' < first && first < 0x7f)
       return {line, std::string("a text that begins with ") + first + " must be in quotes"};
   }
@@ -109,7 +118,7 @@ YamlEvents::Fault YamlEvents::explained() const {
                       (context.ends_with("alias") ? '*' : '&') + " must be in quotes"};
   if (problem == "did not find expected node content") {
     if (!isHere) return {line, "a } or a ] is missing, here or above"};
-    return {line, written[mark.column] == '-' ? kItemInside : "a value is missing here"};
+    return {line, written[at] == '-' ? kItemInside : "a value is missing here"};
   }
   for (const Message& message : kMessages)
     if (message.problem == problem) return {line, message.text};

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <yaml.h>
 
 namespace corridor {
+
+/// Returns the index of the byte at which a column of a line begins. libyaml counts columns in
+/// characters, from 0.
+std::size_t byteOfColumn(std::string_view line, std::size_t column);
 
 /// The events of a YAML text, by libyaml: the starts and ends of documents, lists and maps, and the
 /// texts. (libyaml.org; YAML 1.1 and 1.2.)

@@ -157,9 +157,8 @@ class TreeBuilder {
     skipTo(open.line);
     for (std::size_t line = open.line; line <= close.line && !rest_.empty(); ++line) {
       const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      // The column counts characters, of which each has a byte or more: no key is left out.
-      const std::string_view inside =
-          rest_.substr(0, line == close.line ? std::min(end, close.column) : end);
+      const std::string_view inside = rest_.substr(
+          0, line == close.line ? byteOfColumn(rest_.substr(0, end), close.column) : end);
       if (line > open.line && looksLikeYaml(inside))
         fail(firstLineOfQuotes_, "a quote on this line is closed only on line " +
                                      std::to_string(lastLineOfQuotes_ + 1) +
@@ -239,6 +238,20 @@ std::string_view withoutLastMarks(std::string_view text) {
   }
 }
 
+/// Refuses characters that end a line in YAML 1.1, as libyaml reads it, but not in YAML 1.2: what
+/// follows them in a comment would be read. @throws InputError
+void requireOneKindOfLineEnd(std::string_view text, const std::string& file) {
+  for (const auto& [bytes, name] :
+       {std::pair("\xc2\x85", "U+0085"), {"\xe2\x80\xa8", "U+2028"}, {"\xe2\x80\xa9", "U+2029"}}) {
+    const std::size_t at = text.find(bytes);
+    if (at == text.npos) continue;
+    const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
+    throw InputError(Fault{file, static_cast<int>(line),
+                           std::string("the character ") + name +
+                               " ends a line in YAML 1.1, but not in 1.2; replace it"});
+  }
+}
+
 /// Returns the line of a directive (%YAML …) that follows other lines than directives and comments;
 /// 0 if there is none.
 int lateDirective(std::string_view text) {
@@ -261,6 +274,7 @@ YamlValue parseYaml(const std::string& file, const std::string& given, const Yam
   const bool isWide = hasWideCharacters(text);
   if (!isWide) requireUtf8(text, file);
   const std::string_view utf8 = isWide ? "" : withoutLastMarks(withoutByteOrderMark(text));
+  requireOneKindOfLineEnd(utf8, file);
   if (const int line = lateDirective(utf8); line > 0)
     throw InputError(Fault{file, line,
                            "a line that begins with % is not read after the first lines; "

@@ -205,7 +205,7 @@ TEST_F(FileCacheTest, DoesNotUseAFolderThatOthersMayWriteTo) {
 }
 
 TEST_F(FileCacheTest, SaysWhyItCantBeWritten) {
-  const path nowhere = "/proc/none/cache";  // nobody can make folders there
+  const path nowhere = "/proc/none/cache";  // no folder can be made there
   FileCache cache(nowhere, "code");
   offer(cache, 1);
   keep(cache, 2);

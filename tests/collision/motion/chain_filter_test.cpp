@@ -363,6 +363,24 @@ struct Touches final : TouchTest {
   bool answer_;
 };
 
+/// The pairs that a filter leaves of a case, by their numbers.
+class Left {
+ public:
+  explicit Left(const Case& c) : case_(c), filter_(c.scene) { options_.tolerance = 1e-9; }
+  const std::vector<std::uint32_t>& operator()(TouchTest* test,
+                                               std::span<const std::uint8_t> proved = {}) {
+    filter_.pairsLeft(case_.motions, options_, scratch_, left_, test, proved);
+    return left_;
+  }
+
+ private:
+  const Case& case_;
+  ChainFilter filter_;
+  MotionOptions options_;
+  ChainFilter::Scratch scratch_;
+  std::vector<std::uint32_t> left_;
+};
+
 TEST(ChainFilter, AsksAboutPairsWhoseHullsMeet) {
   Case c;
   c.addJoint(kNone, true, {}, Vec3::UnitX(), 0, 1);
@@ -373,21 +391,14 @@ TEST(ChainFilter, AsksAboutPairsWhoseHullsMeet) {
   c.addPair(true, 1, 0);
   c.scene.pairs[0].number = 7;
   c.scene.pairs[1].number = 3;
-  const ChainFilter filter(c.scene);
-  MotionOptions options;
-  options.tolerance = 1e-9;
-  ChainFilter::Scratch scratch;
-  std::vector<std::uint32_t> left;
+  Left left(c);
   Touches yes(true), no(false);
-  filter.pairsLeft(c.motions, options, scratch, left, &yes);
-  EXPECT_TRUE(left.empty());
+  EXPECT_TRUE(left(&yes).empty());
   ASSERT_EQ(yes.numbers, std::vector<std::uint32_t>{7});
   EXPECT_NEAR(yes.times[0], 0.5, 0.2);
-  filter.pairsLeft(c.motions, options, scratch, left, &no);
-  EXPECT_EQ(left, std::vector<std::uint32_t>{7});
+  EXPECT_EQ(left(&no), std::vector<std::uint32_t>{7});
   EXPECT_EQ(no.numbers, std::vector<std::uint32_t>{7});
-  filter.pairsLeft(c.motions, options, scratch, left);
-  EXPECT_EQ(left, std::vector<std::uint32_t>{7});
+  EXPECT_EQ(left(nullptr), std::vector<std::uint32_t>{7});
 }
 
 TEST(ChainFilter, DoesNotTestPairsThatAreProved) {
@@ -399,17 +410,11 @@ TEST(ChainFilter, DoesNotTestPairsThatAreProved) {
   c.addPair(false, 2, 0);
   c.scene.pairs[0].number = 7;
   c.scene.pairs[1].number = 3;
-  const ChainFilter filter(c.scene);
-  MotionOptions options;
-  options.tolerance = 1e-9;
-  ChainFilter::Scratch scratch;
-  std::vector<std::uint32_t> left;
+  Left left(c);
   std::vector<std::uint8_t> proved(8, 0);
-  filter.pairsLeft(c.motions, options, scratch, left, nullptr, proved);
-  EXPECT_EQ(left, (std::vector<std::uint32_t>{3, 7}));
+  EXPECT_EQ(left(nullptr, proved), (std::vector<std::uint32_t>{3, 7}));
   proved[7] = 1;
-  filter.pairsLeft(c.motions, options, scratch, left, nullptr, proved);
-  EXPECT_EQ(left, std::vector<std::uint32_t>{3});
+  EXPECT_EQ(left(nullptr, proved), std::vector<std::uint32_t>{3});
 }
 
 TEST(ChainFilter, TestsLinksAtRest) {

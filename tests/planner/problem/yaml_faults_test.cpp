@@ -34,7 +34,8 @@ TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
        {"seed: 1\nplanner: \"RRT\nmargin: 1\nallow: [[\"a\", b]]\n",
         "name: \"x\nmargin: 1\n\n# of 30\"\n", "seed: 1\nname: 'x\n at: [0, 0]\n # the robots'\n",
         "allow:\n - [\"a, b]\n\n - [c, \"]\n", "seed: 1\nname: 'x\n can 1: {}\n y'\n",
-        "seed: 1\nname: 'x\n margin : 1\n y'\n", "seed: 1\nname: 'x\n margin:\n y'\n"}) {
+        "seed: 1\nname: 'x\n margin : 1\n y'\n", "seed: 1\nname: 'x\n margin:\n y'\n",
+        "seed: 1\nname: 'x\n\n éééééééé a: b'\n"}) {
     const std::string line = text[0] == 's' || text[0] == 'a' ? "9" : "8";
     EXPECT_EQ(with(text),
               "problem.yaml:" + line +
@@ -132,6 +133,8 @@ TEST_F(YamlFaults, Syntax) {
   EXPECT_EQ(complaintOf("%YAML 1.2\n" + head + poses),
             "problem.yaml:2: is not YAML: --- is missing below the lines that begin with %");
   expectFault("allow: [[a, b], , ]\n", "8: is not YAML: a value is missing here");
+  expectFault("margin: 1\n# old:\u2028margin: 2\n",
+              "9: the character U+2028 ends a line in YAML 1.1, but not in 1.2; replace it");
   expectFault("margin: 1\n# bell: \a\n", "9: is not YAML: control characters are not allowed");
   for (const char* text : {"margin: [1, 2],\n", "margin: [1, 2] m\n", "margin: \"A\" \"B\"\n"})
     expectFault(text, "8: is not YAML: nothing may follow the value on this line");
