@@ -305,8 +305,7 @@ ConvexDistance separatedDistance(const PosedSet& a, const PosedSet& b, const Con
   return result;
 }
 
-ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
-                                double relative) {
+ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near) {
   const Pair pair(a, b);
   gjk::Search<double> search(a, b, pair.size());
   double lower = 0;
@@ -314,7 +313,7 @@ ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double bey
       gjk::Simplex<double>(),
       [&](double upper, double gap) {
         return upper <= pair.touchDistance() || upper - pair.radii() + pair.error() <= near ||
-               upper - gap <= std::max(0x1p-50 * pair.size(), relative * (gap - pair.radii()));
+               upper - gap <= std::max(0x1p-50 * pair.size(), 0x1p-20 * (gap - pair.radii()));
       },
       [&](const Vec3& n, double gap, std::uint32_t pointA, std::uint32_t pointB) {
         if (!(gap - pair.radii() > beyond)) return false;

@@ -60,10 +60,9 @@ struct ConvexRange {
 ///
 /// The search stops as soon as the lower end of the range exceeds `beyond`, or the upper end is at
 /// most `near`. If neither happens, both ends differ from the distance by at most the larger of
-/// 2^-41·S (with the S of `convexDistance`) and the part `relative` of the distance. The range may
-/// be wider if caps of cylinders face each other, or if the map of a sphere is not rigid.
-/// @param beyond, near  metres. @param relative  2^-20 or more.
-ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near,
-                                double relative = 0x1p-20);
+/// 2^-41·S (with the S of `convexDistance`) and 2^-20 of the distance. The range may be wider if
+/// caps of cylinders face each other, or if the map of a sphere is not rigid.
+/// @param beyond, near  metres.
+ConvexRange convexDistanceRange(const PosedSet& a, const PosedSet& b, double beyond, double near);
 
 }  // namespace corridor

@@ -31,11 +31,9 @@ namespace {
 /// Returns a lower bound of the distance of two bodies, by their hulls. A walk of the trees of
 /// meshes takes ten times as long. @param beyond the search ends when the bound exceeds this
 /// distance.
-double boundByHulls(const Posed<Body>& a, const Posed<Body>& b, double beyond, double relative) {
+double boundByHulls(const Posed<Body>& a, const Posed<Body>& b, double beyond) {
   if (!haveHulls(a.shape, b.shape)) return 0;
-  return convexDistanceRange({*a.shape.hull(), a.X_W}, {*b.shape.hull(), b.X_W}, beyond, 0,
-                             std::max(0x1p-20, relative))
-      .lower;
+  return convexDistanceRange({*a.shape.hull(), a.X_W}, {*b.shape.hull(), b.X_W}, beyond, 0).lower;
 }
 
 /// These two functions return a relative motion of zero length, for `sweptSphere`. The first
@@ -289,7 +287,7 @@ std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
         const auto k = static_cast<std::size_t>(&pair - motionPairs_.data());
         DistanceOptions own = options;
         own.upTo = search.scale * within[k];
-        own.atLeast = boundByHulls(a, b, own.upTo, 0.1 * options.relative);
+        own.atLeast = boundByHulls(a, b, own.upTo);
         if (own.atLeast > own.upTo) return false;
         const Distance found = distance(a, b, own, context, trees, &last);
         if (found.distance <= own.upTo) near.push_back({k, found});
