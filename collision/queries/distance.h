@@ -18,9 +18,6 @@ struct DistanceOptions {
   /// Metres, 0 or more. If the distance is larger, the result may be infinite, with meaningless
   /// witness points. A query that needs only short distances is faster with this limit.
   double upTo = std::numeric_limits<double>::infinity();
-  /// Metres: a number that is known to be at most the distance. If it is near the distance, the
-  /// search ends as soon as it finds a pair that is hardly farther apart.
-  double atLeast = 0;
 };
 
 /// The distance of two bodies, and witness points that have this distance. `a` and `b` are the

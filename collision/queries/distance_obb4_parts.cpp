@@ -23,6 +23,7 @@ class NearestWithParts : public BoxesWithin<true> {
   NearestWithParts(const Posed<Obb4Tree>& a, const Posed<Obb4Tree>& b, const Obb4TreePose& pose,
                    const DistanceOptions& options, QueryContext& context)
       : BoxesWithin(a, b, pose, options.upTo, context.counters),
+        options_(options),
         nearest_(a.X_W, a_.reach(), b.X_W, b_.reach(), options, context) {}
 
   bool leaves(const NodePair4&, const Obb4Tree::Node& na, const Obb4Tree::Node& nb, unsigned pairs,
@@ -48,10 +49,11 @@ class NearestWithParts : public BoxesWithin<true> {
     ++counters_.primitiveTests;
     const Obb4LeafSet setA(a_, s), setB(b_, t);
     if (nearest_.testPair(s, setA.set(), t, setB.set(), counters_)) return true;
-    reduceLimit(nearest_.upper(), nearest_.options());
-    return nearest_.isKnown();
+    reduceLimit(nearest_.upper(), options_);
+    return false;
   }
 
+  const DistanceOptions& options_;
   NearestParts nearest_;
 };
 

@@ -38,15 +38,9 @@ class NearestPairs {
     candidates_.clear();
   }
 
-  const DistanceOptions& options() const { return options_; }
   /// Returns the least upper bound of the distance so far, metres.
   double upper() const { return upper_; }
 
-  /// Returns whether no pair can be closer than the best pair so far by more than the options
-  /// allow.
-  bool isKnown() const {
-    return options_.atLeast > 0 && options_.atLeast * (1 + relative_) + options_.absolute >= upper_;
-  }
   /// Returns whether a pair that is at least `bound` metres apart may be closer than the best pair
   /// so far by more than the options allow. Always true for a pair that may touch (bound 0), so
   /// that only contact gives the distance 0. Also true for a NaN.
@@ -107,7 +101,7 @@ class NearestPairs {
   /// replaces the second part. In both cases the sum is below 1e-12·d and leaves room for rounding.
   static constexpr double kTieShare = 0.49e-12;
 
-  DistanceOptions options_;
+  const DistanceOptions& options_;
   double relative_;
   Scratch::Use<Candidates> useOfCandidates_;
   std::vector<BoundedPair>& candidates_;

@@ -28,12 +28,11 @@
 namespace corridor {
 namespace {
 
-/// Returns a lower bound of the distance of two bodies, by their hulls. A walk of the trees of
-/// meshes takes ten times as long. @param beyond the search ends when the bound exceeds this
-/// distance.
-double boundByHulls(const Posed<Body>& a, const Posed<Body>& b, double beyond) {
-  if (!haveHulls(a.shape, b.shape)) return 0;
-  return convexDistanceRange({*a.shape.hull(), a.X_W}, {*b.shape.hull(), b.X_W}, beyond, 0).lower;
+/// Returns whether the hulls of two bodies prove a distance of more than d. Walking the trees of
+/// meshes takes ten times as long.
+bool hullsAreBeyond(double d, const Posed<Body>& a, const Posed<Body>& b) {
+  if (!haveHulls(a.shape, b.shape)) return false;
+  return convexDistanceRange({*a.shape.hull(), a.X_W}, {*b.shape.hull(), b.X_W}, d, d).lower > d;
 }
 
 /// These two functions return a relative motion of zero length, for `sweptSphere`. The first
@@ -287,8 +286,8 @@ std::vector<Scene::NearPair> Scene::pairsWithin(std::span<const Transform> X_WF,
         const auto k = static_cast<std::size_t>(&pair - motionPairs_.data());
         DistanceOptions own = options;
         own.upTo = search.scale * within[k];
-        own.atLeast = boundByHulls(a, b, own.upTo);
-        if (own.atLeast > own.upTo) return false;
+        // This changes no result: the distance would be beyond the limit, too.
+        if (hullsAreBeyond(own.upTo, a, b)) return false;
         const Distance found = distance(a, b, own, context, trees, &last);
         if (found.distance <= own.upTo) near.push_back({k, found});
         return false;

@@ -36,7 +36,8 @@ std::optional<ChainBetween> chainOf(const Model& model, const Scene& scene,
       chainBetween(model, scene.bodies()[pair.bodyA].frame, scene.bodies()[pair.bodyB].frame, 0);
   if (!chain || chain->box.size() > 2) return std::nullopt;
   for (const auto& [lower, upper] : chain->box)
-    if (!(upper - lower > kLeastRange * std::max(std::abs(lower), std::abs(upper))))
+    if (!std::isfinite(upper - lower) ||
+        !(upper - lower > kLeastRange * std::max(std::abs(lower), std::abs(upper))))
       return std::nullopt;
   return chain;
 }

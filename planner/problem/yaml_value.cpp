@@ -18,14 +18,18 @@ bool hasWideCharacters(const std::string& text) {
   return text.find('\0') != text.npos;
 }
 
-/// Returns whether a line looks like a key with its value, like an item of a list, or like a part
-/// of a list or map in brackets.
+/// Returns whether a line, or a part of it, looks like a key with its value, like an item of a
+/// list, or like a part of a list or map in brackets.
 bool looksLikeYaml(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
   if (first == line.npos) return false;
   line = line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
-  return line.starts_with("- ") || line.ends_with(':') || line.find(": ") != line.npos ||
-         line.find(":\t") != line.npos || line.find_first_of("{}[]") != line.npos;
+  if (line == "-" || line.ends_with(':') || line.find_first_of("{}[]") != line.npos) return true;
+  for (const char* const text : {"- ", "-\t", "? ", "?\t"})
+    if (line.starts_with(text)) return true;
+  for (const char* const text : {": ", ":\t", "\":", "':"})
+    if (line.find(text) != line.npos) return true;
+  return false;
 }
 
 /// The start of the standard tags: of "!!str", for example.
@@ -152,19 +156,27 @@ class TreeBuilder {
   /// keys would be lost, for example a margin.
   void checkQuotes(const yaml_mark_t& open, const yaml_mark_t& close) {
     if (open.line == close.line) return;
-    firstLineOfQuotes_ = static_cast<int>(open.line);
-    lastLineOfQuotes_ = static_cast<int>(close.line);
-    skipTo(open.line);
-    for (std::size_t line = open.line; line <= close.line && !rest_.empty(); ++line) {
-      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      const std::string_view inside = rest_.substr(
-          0, line == close.line ? byteOfColumn(rest_.substr(0, end), close.column) : end);
-      if (line > open.line && looksLikeYaml(inside))
+    bool isInside = false;
+    for (std::size_t line = open.line; line <= close.line; ++line) {
+      skipTo(line);
+      const std::string_view whole = rest_.substr(0, rest_.find('\n'));
+      std::size_t begin = 0;
+      if (!isInside) {  // the mark may be that of a tag, on a line above the quote
+        begin = line == open.line ? byteOfColumn(whole, open.column) : 0;
+        begin = whole.find_first_of("\"'", begin);
+        if (begin == whole.npos) continue;
+        if (line == close.line) return;  // the text is on one line
+        ++begin;
+        isInside = true;
+        firstLineOfQuotes_ = static_cast<int>(line);
+        lastLineOfQuotes_ = static_cast<int>(close.line);
+      }
+      const std::size_t end = line == close.line ? byteOfColumn(whole, close.column) : whole.size();
+      if (looksLikeYaml(whole.substr(begin, end - begin)))
         fail(firstLineOfQuotes_, "a quote on this line is closed only on line " +
                                      std::to_string(lastLineOfQuotes_ + 1) +
                                      ", behind what looks like a key or an item; is a quote "
                                      "missing? If not, write the text on one line");
-      if (line < close.line) skipTo(line + 1);
     }
   }
 

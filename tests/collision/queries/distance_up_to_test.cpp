@@ -1,4 +1,4 @@
-// Distance queries with limits: `DistanceOptions::upTo` and `atLeast`.
+// Distance queries with a limit: `DistanceOptions::upTo`.
 #include <limits>
 #include <random>
 
@@ -45,14 +45,6 @@ void compare(const Tree& a, const Tree& b, std::mt19937_64& random, int& below, 
           infinite += found == std::numeric_limits<double>::infinity();
         }
       }
-    for (const double relative : {0.0, 1e-3, 0.5})
-      for (const double share : {0.5, 1.0}) {
-        // A known bound changes the result by no more than the allowed error.
-        const double found =
-            query({.relative = relative, .atLeast = share * whole * (1 - 1e-12)}).distance;
-        EXPECT_GE(found, whole * (1 - 2e-12));
-        EXPECT_LE(found, whole * (1 + relative) * (1 + 2e-12) + 1e-14);
-      }
     if (whole < 0.1) continue;
     context.counters = {};
     query({});
@@ -93,25 +85,6 @@ TEST(DistanceUpTo4, IsTheDistanceOrInfinite) {
   compare(Obb4Tree(test::soup(random, 300, 0.05)), Obb4Tree(parts), random, below, above);
   EXPECT_GT(below, 100);
   EXPECT_GT(above, 100);
-}
-
-TEST(DistanceUpTo4, AKnownBoundSavesWork) {
-  std::mt19937_64 random(test::testSeed(2522));
-  const Obb4Tree a(test::soup(random, 300, 0.05)),
-      b(std::make_shared<const std::vector<ConvexPart>>(test::parts(random, 20, 0.1)));
-  std::uint64_t without = 0, with = 0;
-  for (int n = 0; n < 100; ++n) {
-    const Posed posedA(a, anyPose(random, 1)), posedB(b, anyPose(random, 1));
-    QueryContext context;
-    DistanceOptions options{.relative = 1e-3};
-    const double found = distance(posedA, posedB, options, context).distance;
-    without += context.counters.primitiveTests;
-    context.counters = {};
-    options.atLeast = found / (1 + 1e-3);
-    EXPECT_LE(distance(posedA, posedB, options, context).distance, found * (1 + 1e-3));
-    with += context.counters.primitiveTests;
-  }
-  EXPECT_LT(with, without);
 }
 
 }  // namespace

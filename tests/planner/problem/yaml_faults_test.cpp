@@ -35,7 +35,10 @@ TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
         "name: \"x\nmargin: 1\n\n# of 30\"\n", "seed: 1\nname: 'x\n at: [0, 0]\n # the robots'\n",
         "allow:\n - [\"a, b]\n\n - [c, \"]\n", "seed: 1\nname: 'x\n can 1: {}\n y'\n",
         "seed: 1\nname: 'x\n margin : 1\n y'\n", "seed: 1\nname: 'x\n margin:\n y'\n",
-        "seed: 1\nname: 'x\n\n éééééééé a: b'\n"}) {
+        "seed: 1\nname: 'x\n\n éééééééé a: b'\n",
+        "seed: 1\np: {name: 'x,\n  \"margin\":0.1,\n # r'}\n",
+        "seed: 1\np: {name: 'x, margin: 1,\n\n # r'}\n", "seed: 1\nname: 'x\n-\n # r'\n",
+        "seed: 1\nname: 'x\n ? margin\n # r'\n"}) {
     const std::string line = text[0] == 's' || text[0] == 'a' ? "9" : "8";
     EXPECT_EQ(with(text),
               "problem.yaml:" + line +
@@ -50,8 +53,8 @@ TEST_F(YamlFaults, QuotesThatAreClosedTooLate) {
 }
 
 TEST_F(YamlFaults, QuotesMayHaveSeveralLines) {
-  for (const char* text :
-       {"planner: \"a\n  b\"\n", "planner: 'a\n\n  b'\n# 'x\n", "planner: 'it''s\n a b'"})
+  for (const char* text : {"planner: !!str\n  'a: b'\n", "planner: \"a\n  b\"\n",
+                           "planner: 'a\n\n  b'\n# 'x\n", "planner: 'it''s\n a b'"})
     EXPECT_THAT(with(text), testing::HasSubstr("problem.yaml:8: planner: a map")) << text;
 }
 
