@@ -68,7 +68,7 @@ namespace corridor {
 namespace {
 
 constexpr double kLargest = 0x1p20;
-constexpr std::size_t kMostJoints = 64, kMostObstacles = 1024;
+constexpr std::size_t kMostJoints = 64;
 /// Radians (or metres) of joint motion for eight intervals: shorter intervals prove little more.
 constexpr double kMotionOfSet = 0.9;
 
@@ -163,7 +163,8 @@ std::vector<std::uint32_t> pathOf(const ChainScene& scene, std::uint32_t a, std:
 }  // namespace
 
 bool ChainFilter::isUsable(const ChainScene& scene) {
-  if (scene.joints.size() > kMostJoints || scene.obstacles.size() > kMostObstacles) return false;
+  if (scene.joints.size() > kMostJoints || scene.obstacles.size() > ChainScene::kMostObstacles)
+    return false;
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     if (scene.joints[j].parent != ChainScene::kNone && scene.joints[j].parent >= j) return false;
   const auto isSmallHull = [](const ConvexSet* hull) {

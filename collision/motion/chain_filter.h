@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,6 +19,7 @@ struct ChainScratch;
 /// Metres and radians. The hulls are views; what they view must outlive all users.
 struct ChainScene {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::size_t kMostObstacles = 1024;
 
   /// A revolute or prismatic joint, moved by one number.
   struct Joint {
@@ -101,7 +103,7 @@ class ChainFilter {
   ChainFilter(ChainFilter&&) noexcept;
 
   /// Returns whether the filter is made for a scene: at most 64 joints, the parent of each joint
-  /// before it, at most 1,024 obstacles, and all coordinates below 2^20 m.
+  /// before it, at most `kMostObstacles` obstacles, and all coordinates below 2^20 m.
   static bool isUsable(const ChainScene& scene);
 
   /// The memory that the queries of one thread write to. No answer depends on earlier queries.

@@ -25,6 +25,7 @@
 #include "planner/app/solve_many.h"
 #include "planner/app/solve_one.h"
 #include "planner/problem/keys.h"
+#include "planner/problem/user_cache.h"
 #include "planner/view/path_picture.h"
 
 namespace corridor::app {
@@ -35,7 +36,7 @@ using nlohmann::ordered_json;
 /// Solves one problem, and prints the report on it. @returns the exit status.
 int solveSingle(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
-  Solved solved = solveOne(file, a, interrupted);
+  Solved solved = solveOne(file, a, interrupted, userCache());
   if (const auto& cache = solved.problem.model.cache)
     for (const std::string& note : cache->takeNotes())
       solved.problem.source.notes.push_back({note, NoteWeight::detail});
@@ -198,10 +199,9 @@ void addSolve(CLI::App& program, int& status) {
       ->group(planning);
   const char* many = "Several problems, several tries";
   command
-      ->add_option(
-          "--jobs", a.jobs,
-          "problems solved at a time, each in a process of its own (default 1); under mpirun, "
-          "this many on each rank except the first")
+      ->add_option("--jobs", a.jobs,
+                   "problems solved at a time, by as many processes (default 1); under mpirun, "
+                   "this many on each rank except the first")
       ->check(isWithin<std::uint64_t>(1, 1024, "a whole number from 1 to 1024"))
       ->group(many);
   command

@@ -20,6 +20,7 @@
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/app/solve_one.h"
+#include "planner/problem/user_cache.h"
 #include "planner/solve/solution.h"
 
 namespace corridor::app {
@@ -93,33 +94,32 @@ SolveArguments argumentsFor(const ListedProblem& problem, const SolveArguments& 
 
 /// Solves one problem in a child process. Sends a first message before it writes a file, and then
 /// the report.
-ChildProcess::Work workFor(const ListedProblem& problem, const SolveArguments& a) {
-  return [&problem, &a](const std::function<void(const std::string&)>& send) {
-    static const std::atomic<bool> never = false;  // the parent kills an interrupted child
-    ordered_json report;
-    bool isWriting = false;
-    try {
-      SolveArguments own = argumentsFor(problem, a);
-      own.quiet = true;  // no progress
-      const Solved solved = solveOne(problem.file, own, never, [&] {
-        isWriting = true;
-        send("writes");
-      });
-      report = jsonOf(solved, problem.file);
-      if (const auto& cache = solved.problem.model.cache) {
-        cache->save();  // now, because the parent ends this process after its last message
-        for (const std::string& note : cache->takeNotes()) report[kCacheNotes].push_back(note);
-      }
-      for (const Note& note : solved.problem.source.notes)
-        if (note.weight == NoteWeight::coverage && !a.quiet)
-          std::cerr << problem.name << ": note: " << note.text << '\n';
-    } catch (const InputError& error) {
-      printFaults(error);
-      report = {{"problem", problem.file}, {"result", kBadInputResult}, {"why", error.what()}};
+void solveInChild(const ListedProblem& problem, const SolveArguments& a,
+                  const std::shared_ptr<FileCache>& cache, const ChildProcess::Send& send) {
+  static const std::atomic<bool> never = false;  // the parent kills an interrupted child
+  ordered_json report;
+  bool isWriting = false;
+  try {
+    SolveArguments own = argumentsFor(problem, a);
+    own.quiet = true;  // no progress
+    const Solved solved = solveOne(problem.file, own, never, cache, [&] {
+      isWriting = true;
+      send("writes");
+    });
+    report = jsonOf(solved, problem.file);
+    if (cache) {
+      cache->save();  // now, because the parent may end this process after its last message
+      for (const std::string& note : cache->takeNotes()) report[kCacheNotes].push_back(note);
     }
-    if (!isWriting) send("writes");
-    send(jsonText(report, -1));
-  };
+    for (const Note& note : solved.problem.source.notes)
+      if (note.weight == NoteWeight::coverage && !a.quiet)
+        std::cerr << problem.name << ": note: " << note.text << '\n';
+  } catch (const InputError& error) {
+    printFaults(error);
+    report = {{"problem", problem.file}, {"result", kBadInputResult}, {"why", error.what()}};
+  }
+  if (!isWriting) send("writes");
+  send(jsonText(report, -1));
 }
 
 /// Returns the report on a problem, made from the end of its child process.
@@ -254,8 +254,12 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
 }  // namespace
 
 TaskStarter solveStarter(const std::vector<ListedProblem>& problems, const SolveArguments& a) {
-  return [&problems, &a](std::uint64_t task) {
-    return ChildProcess(workFor(problems[task], a), {{kPatience, kPatience}, 0});
+  const auto work = [&problems, &a, cache = userCache()](std::uint64_t task,
+                                                         const ChildProcess::Send& send) {
+    solveInChild(problems[task], a, cache, send);
+  };
+  return [work](std::uint64_t task) {
+    return ChildProcess(work, task, {{kPatience, kPatience}, 0});
   };
 }
 

@@ -111,6 +111,9 @@ class HullsMeet {
 
 std::unique_ptr<const EdgeFilter> EdgeFilter::make(const Model& model, const Scene& scene,
                                                    const Configuration& tube) {
+  std::size_t obstacles = 0;
+  for (const ModelBody& body : model.bodies) obstacles += body.robot ? 0 : body.shapes.size();
+  if (obstacles > ChainScene::kMostObstacles) return nullptr;  // of many, none is prepared
   std::optional<Joints> joints = jointsOf(model, tube);
   if (!joints || joints->moving.empty()) return nullptr;
   ChainScene filter;

@@ -12,6 +12,7 @@
 #include <poll.h>
 #include <sstream>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -34,15 +35,26 @@ std::system_error systemError(const char* what) {
   return {errno, std::generic_category(), what};
 }
 
-void writeAll(int pipe, const std::string& text) {
+void writeAll(int socket, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
-    const ssize_t n = ::write(pipe, text.data() + done, text.size() - done);
+    const ssize_t n = ::send(socket, text.data() + done, text.size() - done, MSG_NOSIGNAL);
     if (n < 0 && errno != EINTR) ::_exit(1);  // the parent is gone
     if (n > 0) done += static_cast<std::size_t>(n);
   }
 }
 
-[[noreturn]] void child(int pipe, const ChildProcess::Work& work, std::size_t bytes, pid_t parent) {
+/// Waits in the child for a task of the parent. Ends the child if the parent is gone.
+std::uint64_t nextTask(int socket) {
+  std::uint64_t task = 0;
+  ssize_t n = 0;
+  do n = ::recv(socket, &task, sizeof task, MSG_WAITALL);
+  while (n < 0 && errno == EINTR);
+  if (n != sizeof task) ::_exit(1);
+  return task;
+}
+
+[[noreturn]] void child(int socket, const std::function<void(int, const ChildProcess::Send&)>& run,
+                        std::size_t bytes, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // the parent ended before prctl took effect
   // A signal from the terminal reaches the whole process group. The child ignores it, so that the
@@ -51,7 +63,7 @@ void writeAll(int pipe, const std::string& text) {
   if (bytes > 0) limitMemory(bytes);
   std::string failure;
   try {
-    work([&](const std::string& text) { writeAll(pipe, kMessage + text + '\n'); });
+    run(socket, [&](const std::string& text) { writeAll(socket, kMessage + text + '\n'); });
   } catch (const std::bad_alloc&) {
     failure = "out of memory";
   } catch (const std::exception& error) {
@@ -60,7 +72,7 @@ void writeAll(int pipe, const std::string& text) {
       if (c == '\n') c = ' ';
     if (failure.empty()) failure = "an exception without a text";
   }
-  if (!failure.empty()) writeAll(pipe, kFailure + failure + '\n');
+  if (!failure.empty()) writeAll(socket, kFailure + failure + '\n');
   ::_exit(0);
 }
 
@@ -73,34 +85,49 @@ std::string endOf(int status) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
-    : patience_(limits.patience), since_(std::chrono::steady_clock::now()) {
-  int pipe[2];
-  // O_CLOEXEC: programs that the child starts must not keep the pipe open.
-  if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw systemError("pipe");
+void ChildProcess::start(const std::function<void(int, const Send&)>& run, std::size_t bytes) {
+  int ends[2];
+  // SOCK_CLOEXEC: programs that the child starts must not keep the socket open.
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) != 0)
+    throw systemError("socketpair");
   std::cout.flush();
   std::fflush(nullptr);  // otherwise the child would write buffered output a second time
   const pid_t parent = ::getpid();
   id_ = ::fork();
   if (id_ < 0) {
     const auto error = systemError("fork");
-    ::close(pipe[0]);
-    ::close(pipe[1]);
+    ::close(ends[0]);
+    ::close(ends[1]);
     throw error;
   }
   if (id_ == 0) {
-    ::close(pipe[0]);
-    ::fcntl(pipe[1], F_SETFL, 0);  // writing blocks until the parent has read
-    child(pipe[1], work, limits.bytes, parent);
+    ::close(ends[0]);
+    ::fcntl(ends[1], F_SETFL, 0);  // the child's end blocks
+    child(ends[1], run, bytes, parent);
   }
-  ::close(pipe[1]);
-  pipe_ = pipe[0];
+  ::close(ends[1]);
+  socket_ = ends[0];
+}
+
+ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits)
+    : patience_(limits.patience), since_(std::chrono::steady_clock::now()), isForTasks_(false) {
+  start([&](int, const Send& send) { work(send); }, limits.bytes);
+}
+
+ChildProcess::ChildProcess(const TaskWork& work, std::uint64_t task, const ChildLimits& limits)
+    : patience_(limits.patience), since_(std::chrono::steady_clock::now()), isForTasks_(true) {
+  start(
+      [&](int socket, const Send& send) {
+        for (std::uint64_t now = task;; now = nextTask(socket)) work(now, send);
+      },
+      limits.bytes);
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : patience_(std::move(other.patience_)),
       since_(other.since_),
-      pipe_(std::exchange(other.pipe_, -1)),
+      isForTasks_(other.isForTasks_),
+      socket_(std::exchange(other.socket_, -1)),
       id_(std::exchange(other.id_, -1)),
       text_(std::move(other.text_)),
       end_(std::move(other.end_)) {}
@@ -115,9 +142,19 @@ void ChildProcess::stop(const std::string& reason) {
   finish(true);
 }
 
+bool ChildProcess::begin(std::uint64_t task) {
+  if (over()) return false;
+  end_ = {};
+  since_ = std::chrono::steady_clock::now();
+  // The child has read all earlier tasks, so there is room for this one.
+  if (::send(socket_, &task, sizeof task, MSG_NOSIGNAL) == sizeof task) return true;
+  finish(true);
+  return false;
+}
+
 /// Takes one line from the text that was read, and returns true; returns false if there is no
-/// complete line. After the last message, the child is killed. After a line that reports a failure,
-/// this function waits for the end of the child.
+/// complete line. After the last message, a child that has no further task is killed. After a line
+/// that reports a failure, this function waits for the end of the child.
 bool ChildProcess::takeLine() {
   const auto at = text_.find('\n');
   if (at == std::string::npos) return false;
@@ -129,18 +166,18 @@ bool ChildProcess::takeLine() {
     end_.failure = line;
   else
     end_.messages.push_back(line);
-  if (failed || end_.messages.size() == patience_.size()) finish(!failed);
+  if (failed || (hasAll() && !isForTasks_)) finish(!failed);
   return true;
 }
 
 bool ChildProcess::poll() {
-  while (!over()) {
+  while (!over() && !hasAll()) {
     if (takeLine()) continue;
     char part[65536];
-    const ssize_t n = ::read(pipe_, part, sizeof part);
+    const ssize_t n = ::recv(socket_, part, sizeof part, 0);
     if (n > 0) {
       text_.append(part, static_cast<std::size_t>(n));
-    } else if (n == 0) {
+    } else if (n == 0 || errno == ECONNRESET) {  // the latter: the child left a task unread
       finish(false);
     } else if (errno != EINTR) {
       const double patience = patience_[end_.messages.size()];
@@ -150,22 +187,22 @@ bool ChildProcess::poll() {
       stop(text.str());
     }
   }
-  return over();
+  return over() || hasAll();
 }
 
 void ChildProcess::finish(bool kill) {
-  ::close(pipe_);
+  ::close(socket_);
   if (kill) ::kill(id_, SIGKILL);
   int status = 0;
   while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
   }
-  pipe_ = id_ = -1;
-  if (end_.failure.empty() && end_.messages.size() < patience_.size()) end_.failure = endOf(status);
+  socket_ = id_ = -1;
+  if (end_.failure.empty() && !hasAll()) end_.failure = endOf(status);
 }
 
 void ChildProcess::waitForAny(const std::vector<ChildProcess*>& children, int milliseconds) {
   std::vector<pollfd> waiting;
-  for (const ChildProcess* child : children) waiting.push_back({child->pipe_, POLLIN, 0});
+  for (const ChildProcess* child : children) waiting.push_back({child->socket_, POLLIN, 0});
   ::poll(waiting.data(), waiting.size(), milliseconds);
 }
 

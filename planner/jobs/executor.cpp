@@ -9,6 +9,13 @@ LocalExecutor::LocalExecutor(std::size_t places, TaskStarter starter, Killable k
     : places_(places), starter_(std::move(starter)), killable_(killable) {}
 
 bool LocalExecutor::start(std::uint64_t task) {
+  while (!idle_.empty()) {
+    std::unique_ptr<ChildProcess> child = std::move(idle_.back());
+    idle_.pop_back();
+    if (!child->begin(task)) continue;
+    running_.push_back({task, std::move(child)});
+    return true;
+  }
   try {
     running_.push_back({task, std::make_unique<ChildProcess>(starter_(task))});
   } catch (const std::system_error&) {
@@ -23,13 +30,15 @@ std::vector<TaskEnd> LocalExecutor::wait(int milliseconds) {
   for (const Running& one : running_) children.push_back(one.child.get());
   ChildProcess::waitForAny(children, milliseconds);
   std::vector<TaskEnd> ends;
-  for (const Running& one : running_) {
+  std::vector<std::unique_ptr<ChildProcess>> over;
+  for (Running& one : running_) {
     if (!one.child->poll()) continue;
     ends.push_back({one.task, one.child->end()});
     std::vector<std::string>& messages = ends.back().end.messages;
     for (std::size_t i = 0; i + 1 < messages.size(); ++i) messages[i].clear();
+    (one.child->over() ? over : idle_).push_back(std::move(one.child));
   }
-  std::erase_if(running_, [](const Running& one) { return one.child->over(); });
+  std::erase_if(running_, [](const Running& one) { return !one.child; });
   return ends;
 }
 

@@ -17,8 +17,8 @@ struct TaskEnd {
   ChildEnd end;
 };
 
-/// Does tasks, several at a time, each in a process of its own. The processes are on this machine,
-/// or on several machines (rank_executor.h).
+/// Does tasks, several at a time, each in another process. The processes are on this machine, or on
+/// several machines (rank_executor.h).
 class Executor {
  public:
   virtual ~Executor() = default;  ///< kills the tasks that are under way
@@ -43,8 +43,8 @@ class Executor {
   virtual std::vector<std::uint64_t> stop() = 0;
 };
 
-/// A function that starts the process of a task. @throws std::system_error for the same reasons as
-/// the constructor of ChildProcess.
+/// A function that starts a process for a task, and perhaps for later tasks. @throws
+/// std::system_error for the same reasons as the constructor of ChildProcess.
 using TaskStarter = std::function<ChildProcess(std::uint64_t task)>;
 
 /// When a task may be killed by `stop`.
@@ -53,7 +53,8 @@ enum class Killable {
   untilItSends  ///< until its first message, after which it writes files
 };
 
-/// Does the tasks in child processes of this process. @pre the preconditions of the constructor of
+/// Does the tasks in child processes of this process. A child that was made for tasks does one
+/// after the other; all others do one. @pre the preconditions of the constructor of
 /// ChildProcess.
 class LocalExecutor final : public Executor {
  public:
@@ -75,6 +76,7 @@ class LocalExecutor final : public Executor {
   TaskStarter starter_;
   Killable killable_;
   std::vector<Running> running_;
+  std::vector<std::unique_ptr<ChildProcess>> idle_;  // they wait for a further task
 };
 
 }  // namespace corridor

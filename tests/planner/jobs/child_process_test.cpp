@@ -4,13 +4,16 @@
 
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <new>
 #include <stdexcept>
+#include <thread>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/jobs/executor.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -99,6 +102,95 @@ TEST(InChild, NoMoreMemoryThanAllowed) {
               ElementsAre("y"));
   EXPECT_EQ(inChild(allocate(150 * kMegabyte), {{kLong}, 100 * kMegabyte}).failure,
             "out of memory");
+}
+
+/// Waits until the child's task has ended. Returns its end.
+ChildEnd endOf(ChildProcess& child) {
+  while (!child.poll()) ChildProcess::waitForAny({&child}, 1000);
+  return child.end();
+}
+
+/// Makes a child that sends the number of its process, and how many tasks it has had. Task 7 ends
+/// the process, task 8 throws.
+ChildProcess counter(std::uint64_t first) {
+  return {[count = 0](std::uint64_t task, const Send& send) mutable {
+            if (task == 7) std::raise(SIGKILL);
+            if (task == 8) throw std::runtime_error("eight");
+            send(std::to_string(::getpid()));
+            send(std::to_string(++count));
+          },
+          first,
+          {{kLong, kLong}, 0}};
+}
+
+TEST(ChildForTasks, OneProcessDoesOneAfterTheOther) {
+  ChildProcess child = counter(1);
+  const ChildEnd first = endOf(child);
+  ASSERT_EQ(first.messages.size(), 2u);
+  EXPECT_EQ(first.messages[1], "1");
+  for (const char* count : {"2", "3"}) {
+    EXPECT_FALSE(child.over());
+    ASSERT_TRUE(child.begin(1));
+    EXPECT_FALSE(child.hasSent());
+    EXPECT_THAT(endOf(child).messages, ElementsAre(first.messages[0], count));
+    EXPECT_EQ(child.end().failure, "");
+  }
+}
+
+TEST(ChildForTasks, ACrashEndsOneTask) {
+  ChildProcess crashes = counter(1), throws = counter(8);
+  EXPECT_EQ(endOf(crashes).messages.size(), 2u);
+  ASSERT_TRUE(crashes.begin(7));
+  EXPECT_EQ(endOf(crashes).failure, "killed by signal 9 (Killed)");
+  EXPECT_TRUE(crashes.end().messages.empty());  // those of the first task are gone
+  EXPECT_EQ(endOf(throws).failure, "eight");
+  for (ChildProcess* child : {&crashes, &throws}) {
+    EXPECT_TRUE(child->over());
+    EXPECT_FALSE(child->begin(1));
+  }
+}
+
+TEST(ChildForTasks, AChildThatEndedWhileItWaitedTakesNoTask) {
+  ChildProcess child = counter(1);
+  ::kill(std::stoi(endOf(child).messages[0]), SIGKILL);
+  // The task may still be sent before the system has ended the child. Then its end is known later.
+  if (child.begin(2)) EXPECT_EQ(endOf(child).failure, "killed by signal 9 (Killed)");
+  EXPECT_TRUE(child.over());
+}
+
+TEST(ChildForTasks, TimeLimitHoldsForEachTask) {
+  ChildProcess child(
+      [](std::uint64_t task, const Send& send) {
+        while (task == 2) ::pause();
+        send("done");
+      },
+      1, {{0.5}, 0});
+  EXPECT_THAT(endOf(child).messages, ElementsAre("done"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // a wait counts for no task
+  ASSERT_TRUE(child.begin(1));
+  EXPECT_THAT(endOf(child).messages, ElementsAre("done"));
+  ASSERT_TRUE(child.begin(2));
+  EXPECT_EQ(endOf(child).failure, "stopped after 0.5 s");
+}
+
+TEST(LocalExecutor, GivesTasksToChildrenThatWait) {
+  LocalExecutor executor(2, [](std::uint64_t task) { return counter(task); });
+  std::map<std::uint64_t, ChildEnd> ends;
+  for (std::uint64_t next = 1; ends.size() < 9;) {
+    while (next < 10 && executor.underWay() < executor.places())
+      ASSERT_TRUE(executor.start(next++));
+    for (const TaskEnd& one : executor.wait(1000)) ends[one.task] = one.end;
+  }
+  int tasks = 0;
+  for (const auto& [task, end] : ends) {
+    if (task == 7 || task == 8)
+      EXPECT_EQ(end.failure, task == 7 ? "killed by signal 9 (Killed)" : "eight");
+    else
+      tasks += std::stoi(end.messages.back()) > 1;
+  }
+  // Seven tasks ended well, and at most four processes were made: two at first, and one after each
+  // failure.
+  EXPECT_GE(tasks, 3);
 }
 
 }  // namespace
