@@ -40,6 +40,10 @@ double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, bool 
                    Question& question) {
   MotionOptions& o = question.options;
   const double size = graze.size();
+  if (question.ofModel) {  // a `Checker` has default trees and work limit, and proves a slack
+    o.tolerance = o.clearanceSlack = std::max(4 * graze.rounding(), size * dice.power(-8, -5));
+    return sign * size * dice.power(-13, -2);
+  }
   o.trees = dice.of(std::span<const TreeKind>(kTrees));
   question.method =
       fine || curve ? EdgeMethod::certified : dice.of(std::span<const EdgeMethod>(kMethods));
@@ -57,6 +61,13 @@ double chooseProof(Dice& dice, const Graze& graze, double sign, bool fine, bool 
     }
   }
   return sign * size * dice.power(-13, -2);
+}
+
+bool hasSingleJoints(const Edge& edge) {
+  return std::ranges::all_of(edge.tree.frames, [](const Frame& frame) {
+    return frame.joint == Frame::Joint::none || frame.joint == Frame::Joint::revolute ||
+           frame.joint == Frame::Joint::prismatic;
+  });
 }
 
 }  // namespace
@@ -110,14 +121,16 @@ void Audit::make(long number) {
   double size = 1;
   Edge edge = randomEdge(dice, family, options_.states, size);
   size *= dice.power(-1, 0.3);
+  if (options_.ofModels && !hasSingleJoints(edge)) return;
   if (options_.curves) bendEdge(dice, edge, size);
   Question question;
   question.mode = options_.mode;
   question.inTube = dice.oneIn(6);
-  question.rigidMotion = !edge.piece && isRigidBody(edge) && dice.oneIn(2);
+  question.ofModel = options_.ofModels;
+  question.rigidMotion = !edge.piece && !options_.ofModels && isRigidBody(edge) && dice.oneIn(2);
   MotionOptions& o = question.options;
   if (dice.oneIn(4)) o.margin = size * dice.power(-4, -0.5);
-  if (dice.oneIn(8)) o.clearanceSlack = size * dice.power(-8, -1);
+  if (!options_.ofModels && dice.oneIn(8)) o.clearanceSlack = size * dice.power(-8, -1);
   o.earliest = dice.oneIn(3);
   if (question.inTube) setTube(dice, edge, size, question.rigidMotion);
   const double keep = o.margin + o.clearanceSlack;
@@ -139,7 +152,7 @@ void Audit::make(long number) {
     ask(c, row);
     // The verifier has no `clearanceSlack`. With a slack, the true verdict of the case would not be
     // the one that the verifier must report.
-    if (o.clearanceSlack == 0 && dice.oneIn(options_.verify)) verify(c, row);
+    if (keep == o.margin && dice.oneIn(options_.verify)) verify(c, row);
   }
 }
 

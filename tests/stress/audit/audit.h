@@ -15,6 +15,7 @@ class Audit {
   struct Options {
     bool states = false;     ///< make states: edges of zero length
     bool curves = false;     ///< make pieces of curves instead of edges
+    bool ofModels = false;   ///< only chains of single joints, asked by a `Checker` of a model
     bool fine = false;       ///< only gaps and tolerances of the size of rounding errors
     std::size_t verify = 6;  ///< the verifier runs on one case in this many, the checker on every
                              ///< case

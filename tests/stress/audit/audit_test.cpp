@@ -3,8 +3,11 @@
 // audit.
 #include "tests/stress/audit/audit.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
+#include "tests/collision/queries/every_target.h"
 #include "tests/support/support.h"
 
 namespace corridor::audit {
@@ -20,6 +23,20 @@ TEST(Audit, Edges) {
   audit.run(countOf(450, 1'000'000));
   audit.report("edges");
   audit.expectDecided();
+}
+
+/// A `Checker` asks its `EdgeFilter` first, which computes in float, on each SIMD target.
+TEST(Audit, EdgesAndStatesOfModels) {
+  for (const std::int64_t target : test::simdTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    for (const bool states : {false, true}) {
+      Audit audit(21, {.states = states, .ofModels = true, .verify = casesPerVerified()});
+      audit.run(countOf(states ? 300 : 600, states ? 100'000 : 400'000));
+      audit.report(std::string(hwy::TargetName(target)) + (states ? ", states" : ", edges"));
+      audit.expectDecided();
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST(Audit, States) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "collision/motion/rigid_motion.h"
+#include "planner/checker/checker.h"
 #include "planner/robot/edge_motion.h"
 
 namespace corridor::audit {
@@ -74,6 +75,37 @@ double Case::largestUndecidedClearance() const {
   return 2 * std::max({question.options.tolerance, 4 * graze.rounding(), kResolved * graze.size()});
 }
 
+MotionResult answerOfModel(const Case& c) {
+  Model model;
+  model.tree = c.edge.tree;
+  model.space = c.edge.space;
+  model.robots.resize(1);
+  for (const bool tip : {true, false}) {
+    const Shape& shape = tip ? c.graze.tip() : c.rest;
+    PlacedShape placed;
+    placed.name = tip ? "tip" : "rest";
+    if (shape.isMesh) {
+      auto file = std::make_shared<MeshFile>();
+      file->mesh = shape.mesh;
+      placed.mesh = std::move(file);
+    } else {
+      placed.parts = {shape.part};
+    }
+    const std::size_t frame = tip ? c.graze.tipFrame() : c.graze.restFrame();
+    // A body on the world's frame is an obstacle.
+    const auto robot = frame == 0 ? std::nullopt : std::optional<std::size_t>(0);
+    model.bodies.push_back({placed.name, frame, robot, {placed}});
+  }
+  CheckerOptions options;
+  options.margin = c.question.options.margin;
+  options.tube = c.edge.tube;
+  options.tolerance = c.question.options.tolerance;
+  const Checker checker(model, options);
+  const bool earliest = c.question.options.earliest;
+  return c.edge.piece ? checker.certifyCurve(*c.edge.piece, earliest)
+                      : checker.certifyEdge(c.edge.from, c.edge.to, {.earliest = earliest});
+}
+
 std::optional<MotionResult> askChecker(const Case& c) {
   QueryContext context;
   const auto guarded = [&](const auto& ask) -> std::optional<MotionResult> {
@@ -85,6 +117,7 @@ std::optional<MotionResult> askChecker(const Case& c) {
       return std::nullopt;
     }
   };
+  if (c.question.ofModel) return guarded([&] { return answerOfModel(c); });
   if (c.question.rigidMotion) {
     const Body tip = c.body(true), rest = c.body(false);
     const bool tipMoves = c.graze.tipFrame() != 0;

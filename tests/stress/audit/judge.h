@@ -22,6 +22,7 @@ struct Question {
   MotionOptions options;
   EdgeMethod method = EdgeMethod::certified;
   bool rigidMotion = false;  ///< use `RigidMotion` instead of `EdgeMotion`
+  bool ofModel = false;      ///< ask a `Checker`, which asks its `EdgeFilter` first
   bool inTube = false;       ///< the true verdict is that of one curve in the tube, not of the edge
                              ///< itself
   Mode mode = Mode::usual;
@@ -52,6 +53,9 @@ void setMotion(EdgeMotion& motion, const Edge& edge);
 /// an unusual floating-point mode. In the usual mode, exceptions are passed on.
 std::optional<MotionResult> askChecker(const Case& c);
 std::optional<PathReport> askVerifier(const Case& c);
+/// Returns the answer of `Checker::certifyEdge`, or of `Checker::certifyCurve` for a piece, for a
+/// model made of the case's plain data.
+MotionResult answerOfModel(const Case& c);
 /// An answer of the method `certified`, and whether `checkCertificate` accepts the certificate of
 /// that answer.
 struct Certificate {

@@ -7,12 +7,10 @@
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
-#include <memory>
 #include <span>
 
 #include <gtest/gtest.h>
 
-#include "planner/checker/checker.h"
 #include "tests/stress/audit/audit.h"
 #include "tests/stress/audit/pieces.h"
 #include "tests/support/support.h"
@@ -65,40 +63,13 @@ Edge without(const Edge& edge, bool tube, bool error) {
   return bare;
 }
 
-/// Returns the answer of `Checker::certifyCurve`, for a model made of the case's plain data.
-MotionResult askModel(const Case& c) {
-  Model model;
-  model.tree = c.edge.tree;
-  model.space = c.edge.space;
-  model.robots.resize(1);
-  for (const bool tip : {true, false}) {
-    const Shape& shape = tip ? c.graze.tip() : c.rest;
-    PlacedShape placed;
-    placed.name = tip ? "tip" : "rest";
-    if (shape.isMesh) {
-      auto file = std::make_shared<MeshFile>();
-      file->mesh = shape.mesh;
-      placed.mesh = std::move(file);
-    } else {
-      placed.parts = {shape.part};
-    }
-    model.bodies.push_back(
-        {placed.name, tip ? c.graze.tipFrame() : c.graze.restFrame(), 0, {placed}});
-  }
-  CheckerOptions options;
-  options.margin = c.question.options.margin;
-  options.tube = c.edge.tube;
-  options.tolerance = c.question.options.tolerance;
-  return Checker(model, options).certifyCurve(*c.edge.piece, c.question.options.earliest);
-}
-
 /// The answers to one question, and counts of the answers that claim a proof.
 struct ProofAnswers {
   MotionResult scene, model;
   PathReport verifier;
 
   explicit ProofAnswers(const Case& c)
-      : scene(*askChecker(c)), model(askModel(c)), verifier(*askVerifier(c)) {}
+      : scene(*askChecker(c)), model(answerOfModel(c)), verifier(*askVerifier(c)) {}
 };
 struct ProofCounts {
   long cases = 0, scene = 0, model = 0, verifier = 0;
