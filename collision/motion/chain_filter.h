@@ -19,7 +19,7 @@ struct ChainScratch;
 /// Metres and radians. The hulls are views; what they view must outlive all users.
 struct ChainScene {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::size_t kMostObstacles = 1024;
+  static constexpr std::size_t kMostObstacles = 1024;  ///< that a filter takes
 
   /// A revolute or prismatic joint, moved by one number.
   struct Joint {

@@ -25,7 +25,6 @@
 #include "planner/app/solve_many.h"
 #include "planner/app/solve_one.h"
 #include "planner/problem/keys.h"
-#include "planner/problem/user_cache.h"
 #include "planner/view/path_picture.h"
 
 namespace corridor::app {
@@ -36,7 +35,7 @@ using nlohmann::ordered_json;
 /// Solves one problem, and prints the report on it. @returns the exit status.
 int solveSingle(const std::string& file, const SolveArguments& a,
                 const std::atomic<bool>& interrupted) {
-  Solved solved = solveOne(file, a, interrupted, userCache());
+  Solved solved = solveOne(file, a, interrupted);
   if (const auto& cache = solved.problem.model.cache)
     for (const std::string& note : cache->takeNotes())
       solved.problem.source.notes.push_back({note, NoteWeight::detail});

@@ -20,7 +20,6 @@
 #include "planner/app/interrupt.h"
 #include "planner/app/output.h"
 #include "planner/app/solve_one.h"
-#include "planner/problem/user_cache.h"
 #include "planner/solve/solution.h"
 
 namespace corridor::app {
@@ -95,19 +94,19 @@ SolveArguments argumentsFor(const ListedProblem& problem, const SolveArguments& 
 /// Solves one problem in a child process. Sends a first message before it writes a file, and then
 /// the report.
 void solveInChild(const ListedProblem& problem, const SolveArguments& a,
-                  const std::shared_ptr<FileCache>& cache, const ChildProcess::Send& send) {
+                  const ChildProcess::Send& send) {
   static const std::atomic<bool> never = false;  // the parent kills an interrupted child
   ordered_json report;
   bool isWriting = false;
   try {
     SolveArguments own = argumentsFor(problem, a);
     own.quiet = true;  // no progress
-    const Solved solved = solveOne(problem.file, own, never, cache, [&] {
+    const Solved solved = solveOne(problem.file, own, never, [&] {
       isWriting = true;
       send("writes");
     });
     report = jsonOf(solved, problem.file);
-    if (cache) {
+    if (const auto& cache = solved.problem.model.cache) {
       cache->save();  // now, because the parent may end this process after its last message
       for (const std::string& note : cache->takeNotes()) report[kCacheNotes].push_back(note);
     }
@@ -122,7 +121,7 @@ void solveInChild(const ListedProblem& problem, const SolveArguments& a,
   send(jsonText(report, -1));
 }
 
-/// Returns the report on a problem, made from the end of its child process.
+/// Returns the report on a problem, made from the end of its task.
 /// @param cacheNotes gets the child's notes on the cache, too: they are printed once for all.
 ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end,
                       std::vector<std::string>& cacheNotes) {
@@ -141,7 +140,7 @@ ordered_json reportOf(const ListedProblem& problem, const ChildEnd& end,
 }
 
 /// Solves the problems until all are done, or until an interrupt.
-/// @param done is called with the index of each problem and the end of its child process.
+/// @param done is called with the index of each problem and the end of its task.
 template <class Done>
 void solveAll(std::size_t problems, Executor& executor, const std::atomic<bool>& interrupted,
               const Done& done) {
@@ -254,9 +253,8 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
 }  // namespace
 
 TaskStarter solveStarter(const std::vector<ListedProblem>& problems, const SolveArguments& a) {
-  const auto work = [&problems, &a, cache = userCache()](std::uint64_t task,
-                                                         const ChildProcess::Send& send) {
-    solveInChild(problems[task], a, cache, send);
+  const auto work = [&](std::uint64_t task, const ChildProcess::Send& send) {
+    solveInChild(problems[task], a, send);
   };
   return [work](std::uint64_t task) {
     return ChildProcess(work, task, {{kPatience, kPatience}, 0});

@@ -13,6 +13,7 @@
 #include "planner/app/options.h"
 #include "planner/app/output.h"
 #include "planner/problem/digest.h"
+#include "planner/problem/user_cache.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/solution.h"
 #include "planner/trajectory/trajectory_text.h"
@@ -136,10 +137,9 @@ TrajectoryFileKind trajectoryKindOf(const std::string& file) {
 }
 
 Solved solveOne(const std::string& file, const SolveArguments& a,
-                const std::atomic<bool>& interrupted, const std::shared_ptr<FileCache>& cache,
-                const std::function<void()>& beforeWriting) {
+                const std::atomic<bool>& interrupted, const std::function<void()>& beforeWriting) {
   const auto before = std::chrono::steady_clock::now();
-  Problem problem = readProblemOf(file, cache);
+  Problem problem = readProblemOf(file, userCache());
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - before;
   // Computed before planning, because the files may change while the planner runs.
   const std::string digest = a.output ? digestOf(problem) : "";

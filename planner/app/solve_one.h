@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "planner/app/solve_output.h"
@@ -17,11 +16,10 @@ TrajectoryFileKind trajectoryKindOf(const std::string& file);
 /// picture, and the trajectory if it is proved. With several tries, each try has a seed of its own,
 /// from the problem's seed upwards. The best path is kept: the shortest or the clearest, as
 /// `SolveArguments::keep` says.
-/// @param cache null: none.
 /// @param beforeWriting called after solving, before a file is written.
 /// @throws InputError for bad input, or if a file can't be written.
 Solved solveOne(const std::string& file, const SolveArguments& a,
-                const std::atomic<bool>& interrupted, const std::shared_ptr<FileCache>& cache,
+                const std::atomic<bool>& interrupted,
                 const std::function<void()>& beforeWriting = {});
 
 }  // namespace corridor::app

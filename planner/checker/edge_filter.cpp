@@ -113,7 +113,7 @@ std::unique_ptr<const EdgeFilter> EdgeFilter::make(const Model& model, const Sce
                                                    const Configuration& tube) {
   std::size_t obstacles = 0;
   for (const ModelBody& body : model.bodies) obstacles += body.robot ? 0 : body.shapes.size();
-  if (obstacles > ChainScene::kMostObstacles) return nullptr;  // of many, none is prepared
+  if (obstacles > ChainScene::kMostObstacles) return nullptr;  // not usable: nothing is prepared
   std::optional<Joints> joints = jointsOf(model, tube);
   if (!joints || joints->moving.empty()) return nullptr;
   ChainScene filter;

@@ -11,6 +11,7 @@
 #include <new>
 #include <poll.h>
 #include <sstream>
+#include <stdexcept>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -43,7 +44,8 @@ void writeAll(int socket, const std::string& text) {
   }
 }
 
-/// Waits in the child for a task of the parent. Ends the child if the parent is gone.
+/// Waits in the child for a task of the parent. (If the parent ends, so does the child, by
+/// `PR_SET_PDEATHSIG`: the socket stays open as long as children have copies of the parent's end.)
 std::uint64_t nextTask(int socket) {
   std::uint64_t task = 0;
   ssize_t n = 0;
@@ -118,7 +120,17 @@ ChildProcess::ChildProcess(const TaskWork& work, std::uint64_t task, const Child
     : patience_(limits.patience), since_(std::chrono::steady_clock::now()), isForTasks_(true) {
   start(
       [&](int socket, const Send& send) {
-        for (std::uint64_t now = task;; now = nextTask(socket)) work(now, send);
+        for (std::uint64_t now = task;; now = nextTask(socket)) {
+          std::size_t sent = 0;
+          work(now, [&](const std::string& text) {
+            send(text);
+            ++sent;
+          });
+          // Both sides would wait, or take the messages for those of the next task.
+          if (sent != limits.patience.size())
+            throw std::logic_error("a task sent " + std::to_string(sent) + " messages, not " +
+                                   std::to_string(limits.patience.size()));
+        }
       },
       limits.bytes);
 }

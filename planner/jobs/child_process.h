@@ -44,7 +44,7 @@ class ChildProcess {
   /// @throws std::system_error if no further process or socket can be created.
   ChildProcess(const Work& work, const ChildLimits& limits);
   /// Starts the work on a first task. When it has sent its last message, the child waits for
-  /// `begin`, and keeps its memory: what one task has read, the next one need not read.
+  /// `begin`. The limits of memory hold for all tasks together, as do those of `ulimit`.
   ChildProcess(const TaskWork& work, std::uint64_t task, const ChildLimits& limits);
   ~ChildProcess();  ///< kills the child if it is still running
   ChildProcess(ChildProcess&& other) noexcept;

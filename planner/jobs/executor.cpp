@@ -30,13 +30,15 @@ std::vector<TaskEnd> LocalExecutor::wait(int milliseconds) {
   for (const Running& one : running_) children.push_back(one.child.get());
   ChildProcess::waitForAny(children, milliseconds);
   std::vector<TaskEnd> ends;
-  std::vector<std::unique_ptr<ChildProcess>> over;
   for (Running& one : running_) {
     if (!one.child->poll()) continue;
     ends.push_back({one.task, one.child->end()});
     std::vector<std::string>& messages = ends.back().end.messages;
     for (std::size_t i = 0; i + 1 < messages.size(); ++i) messages[i].clear();
-    (one.child->over() ? over : idle_).push_back(std::move(one.child));
+    if (one.child->over())
+      one.child.reset();
+    else
+      idle_.push_back(std::move(one.child));
   }
   std::erase_if(running_, [](const Running& one) { return !one.child; });
   return ends;

@@ -12,12 +12,12 @@ namespace corridor {
 /// How one of many tasks ended. A task is a number; the caller decides what the number stands for.
 struct TaskEnd {
   std::uint64_t task = 0;
-  /// How the child process of the task ended. Only the text of the last message is kept; the other
-  /// messages are empty texts.
+  /// How the task ended. Only the text of the last message is kept; the other messages are empty
+  /// texts.
   ChildEnd end;
 };
 
-/// Does tasks, several at a time, each in another process. The processes are on this machine, or on
+/// Does tasks in child processes, several at a time. The processes are on this machine, or on
 /// several machines (rank_executor.h).
 class Executor {
  public:
@@ -53,9 +53,9 @@ enum class Killable {
   untilItSends  ///< until its first message, after which it writes files
 };
 
-/// Does the tasks in child processes of this process. A child that was made for tasks does one
-/// after the other; all others do one. @pre the preconditions of the constructor of
-/// ChildProcess.
+/// Does the tasks in child processes of this process. A child made by the constructor for
+/// tasks does several, one after the other; all others do one. @pre the preconditions of the
+/// constructor of ChildProcess.
 class LocalExecutor final : public Executor {
  public:
   LocalExecutor(std::size_t places, TaskStarter starter, Killable killable = Killable::always);

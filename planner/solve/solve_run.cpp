@@ -180,7 +180,10 @@ std::uint64_t SolveRun::defaultRestart() const {
 
 void SolveRun::setUp() {
   ompl::msg::noOutputHandler();  // the report contains what users need
-  ompl::RNG::setSeed(problem_.settings.seed);
+  // Every generator of this run is made after this call, which gives it its seed. (OMPL's error
+  // message is about the generators that were made before.) OMPL takes the seed 0 as 1, but only in
+  // a process that has made no generator.
+  ompl::RNG::setSeed(std::max<std::uint64_t>(problem_.settings.seed, 1));
   setUpSpace();
   definition_ = std::make_shared<ob::ProblemDefinition>(si_);
   FaultList faults;

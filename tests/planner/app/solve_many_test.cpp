@@ -119,6 +119,22 @@ TEST_F(SolveMany, ARangeOfASet) {
   EXPECT_THAT(filesIn("one"), ElementsAre("set-5.solution.yaml"));
 }
 
+/// One process solves one problem after the other.
+TEST_F(SolveMany, NoPathDependsOnEarlierProblems) {
+  writeSet("set.json", {1, 2, 3});
+  const auto pathIn = [&](const std::string& file) {
+    return read(file).substr(read(file).find("path:"));
+  };
+  for (const std::string seed : {"0", "1", "7"}) {
+    const std::string options = " --seed " + seed + " --quiet -o ";
+    EXPECT_EQ(run("solve 'set.json#1' none.yaml 'set.json#2-3'" + options + "out").status, 2);
+    for (const std::string number : {"1", "2", "3"}) {
+      EXPECT_EQ(run("solve 'set.json#" + number + "'" + options + "alone.yaml").status, 0);
+      EXPECT_EQ(pathIn("alone.yaml"), pathIn("out/set-" + number + ".solution.yaml"));
+    }
+  }
+}
+
 TEST_F(SolveMany, AFolderOfFolders) {
   for (const char* name : {"b", "a"}) {
     for (const char* all : {"all/", "more/"})

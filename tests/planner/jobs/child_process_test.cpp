@@ -154,8 +154,21 @@ TEST(ChildForTasks, AChildThatEndedWhileItWaitedTakesNoTask) {
   ChildProcess child = counter(1);
   ::kill(std::stoi(endOf(child).messages[0]), SIGKILL);
   // The task may still be sent before the system has ended the child. Then its end is known later.
-  if (child.begin(2)) EXPECT_EQ(endOf(child).failure, "killed by signal 9 (Killed)");
+  if (child.begin(2)) {
+    EXPECT_EQ(endOf(child).failure, "killed by signal 9 (Killed)");
+  }
   EXPECT_TRUE(child.over());
+}
+
+TEST(ChildForTasks, ATaskThatSendsTooFewMessagesHasFailed) {
+  ChildProcess child(
+      [](std::uint64_t task, const Send& send) {
+        for (std::uint64_t i = 0; i < task; ++i) send("");
+      },
+      2, {{kLong, kLong}, 0});
+  EXPECT_EQ(endOf(child).failure, "");
+  ASSERT_TRUE(child.begin(1));
+  EXPECT_EQ(endOf(child).failure, "a task sent 1 messages, not 2");
 }
 
 TEST(ChildForTasks, TimeLimitHoldsForEachTask) {
