@@ -35,6 +35,21 @@ std::array<double, kSolvePhases.size()> secondsOf(const Solved& solved) {
           r.trajectoryTime};
 }
 
+std::string reasonOf(WhyOffTarget why) {
+  switch (why) {
+    case WhyOffTarget::detour:
+      return "; a path that keeps it everywhere was found, but it is longer than prefer.detour "
+             "allows";
+    case WhyOffTarget::notFound:
+      return "; no path that keeps it everywhere was found";
+    case WhyOffTarget::time:
+      return "; the time ran out before one that keeps it everywhere was found";
+    case WhyOffTarget::unknown:
+      break;
+  }
+  return "";
+}
+
 /// Returns the lines of the report about the clearance of the path.
 std::vector<std::string> clearanceLines(const PathClearance& c) {
   std::vector<std::string> lines;
@@ -46,12 +61,14 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
     lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
   lines.push_back("every pair keeps the preferred distance, as far as start and goal allow, on " +
-                  rounded(std::floor(1e3 * c.shareOnTarget) / 10) + " % of the length");
+                  rounded(std::floor(1e3 * c.shareOnTarget) / 10) + " % of the length" +
+                  reasonOf(c.why));
   return lines;
 }
 
 ordered_json clearanceJson(const PathClearance& c) {
   ordered_json j = {{"proved_m", c.proved}, {"share_on_target", c.shareOnTarget}};
+  if (c.why != WhyOffTarget::unknown) j["why_off_target"] = nameOf(c.why);
   if (std::isfinite(c.smallestAtEnds)) j["ends_m"] = c.smallestAtEnds;
   if (c.a.empty()) return j;
   j["closest"] = {{"bodies", {c.a, c.b}}, {"distance_m", c.smallest}, {"edge", c.edge}, {"t", c.t}};

@@ -45,6 +45,9 @@ constexpr double kJustMissed = 0.99;
 /// smallest share.
 constexpr int kRefinements = 4;
 
+/// The steps of a search around a time, halved from the widest to the narrowest.
+constexpr double kWidest = 1.0 / 32, kNarrowest = 1.0 / 4096;
+
 /// Returns the targets of all pairs. @param smallestAtEnds receives the smallest distance at start
 /// and goal, if this is below `clearance`; otherwise it is not changed.
 PairMargins targetsOf(const Checker& checker, double clearance, const Configuration& start,
@@ -116,6 +119,11 @@ std::optional<TangentStep> shortestStep(std::vector<Constraint>& constraints, Ei
 
 }  // namespace
 
+const char* nameOf(WhyOffTarget why) {
+  constexpr const char* kNames[] = {"", "detour", "not found", "time"};
+  return kNames[static_cast<std::size_t>(why)];
+}
+
 ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
                                    const Configuration& start, const Configuration& goal)
     : checker_(checker),
@@ -185,6 +193,27 @@ std::optional<ClearanceTargets::Worst> ClearanceTargets::closestOn(const Configu
                                                                    const Configuration& to) const {
   const Worst closest =
       worstOn(from, to, clearances_, checker_.pairsLeftByHulls(from, to, clearances_));
+  if (closest.share < 1) return closest;
+  return std::nullopt;
+}
+
+std::optional<ClearanceTargets::Worst> ClearanceTargets::closestNear(const Configuration& from,
+                                                                     const Configuration& to,
+                                                                     double t) const {
+  Worst closest;
+  const auto sample = [&](double at) {
+    if (at < 0 || at > 1) return;
+    for (const Scene::NearPair& near : checker_.pairsWithin(
+             checker_.space().interpolate(from, to, at), clearances_, {nullptr, closest.share}))
+      if (const double share = near.distance.distance / clearance_; share < closest.share)
+        closest = {share, at, near.distance.distance, near.pair};
+  };
+  sample(t);
+  for (double step = kWidest; step >= kNarrowest; step /= 2) {
+    const double middle = closest.share < 1 ? closest.t : t;
+    sample(middle - step);
+    sample(middle + step);
+  }
   if (closest.share < 1) return closest;
   return std::nullopt;
 }

@@ -9,6 +9,16 @@
 
 namespace corridor {
 
+/// Why edges of a path miss a clearance target.
+enum class WhyOffTarget {
+  unknown,
+  detour,    ///< a path that keeps all targets was found, but it is longer than allowed
+  notFound,  ///< no search found a path that keeps all targets
+  time       ///< the time ran out before all searches were made
+};
+/// Returns "", "detour", "not found" or "time".
+const char* nameOf(WhyOffTarget why);
+
 /// The distances that the pairs of a scene should keep along a path from a start to a goal. The
 /// target of a pair is the smallest of three lengths: `clearance`, 70 % of the pair's distance at
 /// the start, and 70 % of its distance at the goal. The reason for the last two: a path can't keep
@@ -56,6 +66,9 @@ class ClearanceTargets {
   /// Returns nullopt if no pair is closer than `clearance()` at a sample. In this result, `share`
   /// is the distance divided by `clearance()`.
   std::optional<Worst> closestOn(const Configuration& from, const Configuration& to) const;
+  /// The same, at samples near the time t.
+  std::optional<Worst> closestNear(const Configuration& from, const Configuration& to,
+                                   double t) const;
 
   /// Returns a configuration near q at which pairs that are closer than 1.5 times their targets are
   /// farther apart: to first order, they reach 1.5 times their targets, or less if other pairs are

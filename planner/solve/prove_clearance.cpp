@@ -11,30 +11,53 @@ namespace corridor {
 
 namespace {
 
-/// The first clearance that is tried, as a fraction of the smallest distance found at samples. The
-/// true smallest distance is a little smaller than at samples. A proof of nearly the whole distance
-/// takes many short intervals.
-constexpr double kFirstTry = 0.9;
-/// Each further clearance that is tried is this fraction of the clearance before.
+/// The clearance that is tried to prove, as a fraction of the smallest distance found. So the two
+/// differ by less than a tenth. A proof of nearly the whole distance takes many short intervals.
+constexpr double kTried = 0.93;
+/// If a proof fails where no smaller distance is found, the next clearance that is tried is this
+/// fraction of the one before.
 constexpr double kNextTry = 0.8;
-constexpr int kMostTries = 10;
+constexpr int kMostTries = 20;
 
-/// Tries a few clearances from `most` downwards. Returns the first of them that every edge of a
-/// path is proved to keep. Returns 0 if the proof fails for all clearances that are tried: at most
-/// kMostTries, all above `least`.
-double provedClearance(const Checker& checker, const Path& path, double most, double least) {
-  double tried = roundedDownTo2Digits(most);
+/// Where a path comes closest, as far as known.
+struct Closest {
+  double distance = std::numeric_limits<double>::infinity();
+  std::size_t edge = 0, pair = 0;
+  double t = 0;
+
+  /// @returns whether the place is closer.
+  bool note(std::size_t at, const std::optional<ClearanceTargets::Worst>& place) {
+    if (!place || !(place->distance > 0) || !(place->distance < distance)) return false;
+    *this = {place->distance, at, place->pair, place->t};
+    return true;
+  }
+};
+
+/// Proves a clearance of nearly the smallest distance. Where the proof fails, the path may come
+/// closer than at any sample, so that place is searched, too.
+/// @returns a clearance that every edge is proved to keep; 0 if no proof is found, or none above
+/// `least`.
+/// @param most the first clearance that is tried.
+double provedClearance(const Checker& checker, const ClearanceTargets& targets, const Path& path,
+                       double most, double least, Closest& closest) {
+  double tried = most;
   // All edges before this one are proved to keep the clearance that is tried. A path of one state
   // has one edge, of length 0.
-  std::size_t edge = path.size() > 1 ? 1 : 0;
+  const std::size_t edges = std::max<std::size_t>(path.size() - 1, 1);
+  std::size_t edge = 0;
   for (int n = 0; n < kMostTries && tried > least; ++n) {
     const PairMargins margins(std::vector(checker.scene().motionPairs().size(), tried));
-    while (edge < path.size() &&
-           checker.certifyEdge(path[edge > 0 ? edge - 1 : 0], path[edge], {.margins = &margins})
-                   .verdict == MotionVerdict::free)
-      ++edge;
-    if (edge >= path.size()) return tried;
-    tried = roundedDownTo2Digits(kNextTry * tried);
+    MotionResult failed;
+    for (; edge < edges; ++edge) {
+      const Configuration &from = path[edge], &to = path[std::min(edge + 1, path.size() - 1)];
+      failed = checker.certifyEdge(from, to, {.margins = &margins});
+      if (failed.verdict == MotionVerdict::free) continue;
+      const bool isCloser =
+          failed.time >= 0 && closest.note(edge, targets.closestNear(from, to, failed.time));
+      tried = isCloser ? std::min(tried, kTried * closest.distance) : kNextTry * tried;
+      break;
+    }
+    if (edge >= edges) return tried;
   }
   return 0;
 }
@@ -54,14 +77,15 @@ double keptShare(const Checker& checker, const ClearanceTargets& targets, const 
 
 }  // namespace
 
-double roundedDownTo2Digits(double x) {
+double roundedDownTo3Digits(double x) {
   if (!(x > 0) || !std::isfinite(x)) return 0;
   char text[32];
-  std::snprintf(text, sizeof text, "%.1e", x);  // "1.2e-03"
+  std::snprintf(text, sizeof text, "%.2e", x);  // "1.23e-03"
   if (const double nearest = std::strtod(text, nullptr); nearest <= x) return nearest;
-  int digits = 10 * (text[0] - '0') + (text[2] - '0') - 1, exponent = std::atoi(text + 4) - 1;
-  if (digits == 9) {  // the number below 1.0·10^n is 9.9·10^(n - 1)
-    digits = 99;
+  int digits = 100 * (text[0] - '0') + 10 * (text[2] - '0') + (text[3] - '0') - 1,
+      exponent = std::atoi(text + 5) - 2;
+  if (digits == 99) {  // the number below 1.00·10^n is 9.99·10^(n - 1)
+    digits = 999;
     --exponent;
   }
   std::snprintf(text, sizeof text, "%de%d", digits, exponent);
@@ -72,17 +96,8 @@ PathClearance proveClearance(const Checker& checker, const ClearanceTargets& tar
                              const Path& path, EdgeMemory& onTarget) {
   const ConfigurationSpace& space = checker.space();
   PathClearance result;
-  result.smallest = std::numeric_limits<double>::infinity();
   result.smallestAtEnds = targets.smallestAtEnds();
-  const auto note = [&](std::size_t edge, const std::optional<ClearanceTargets::Worst>& place) {
-    if (!place || !(place->distance > 0) || !(place->distance < result.smallest)) return;
-    const MotionPair& pair = checker.scene().motionPairs()[place->pair];
-    result.smallest = place->distance;
-    result.edge = edge;
-    result.t = place->t;
-    result.a = checker.model().bodies[checker.bodyOf(pair.bodyA)].name;
-    result.b = checker.model().bodies[checker.bodyOf(pair.bodyB)].name;
-  };
+  Closest closest;
   double length = 0, kept = 0;
   bool all = path.size() > 1;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
@@ -90,7 +105,7 @@ PathClearance proveClearance(const Checker& checker, const ClearanceTargets& tar
                  share = keptShare(checker, targets, path[i], path[i + 1], onTarget);
     if (share < 1) {
       all = false;
-      note(i, targets.missedOn(path[i], path[i + 1]));
+      closest.note(i, targets.missedOn(path[i], path[i + 1]));
     }
     length += part;
     kept += part * share;
@@ -100,15 +115,24 @@ PathClearance proveClearance(const Checker& checker, const ClearanceTargets& tar
   // than the clearance, so there is nothing to search for.
   if (!all || targets.least() < targets.clearance())
     for (std::size_t i = 0; i + 1 < std::max<std::size_t>(path.size(), 2); ++i)
-      note(i, targets.closestOn(path[i], path[std::min(i + 1, path.size() - 1)]));
-  const double proved = all ? roundedDownTo2Digits(targets.least()) : 0,
-               tried = result.smallest < targets.clearance() ? kFirstTry * result.smallest
-                       : all                                 ? targets.clearance()
-                                                             : kFirstTry * targets.clearance();
+      closest.note(i, targets.closestOn(path[i], path[std::min(i + 1, path.size() - 1)]));
+  const double proved = all ? targets.least() : 0, tried = closest.distance < targets.clearance()
+                                                               ? kTried * closest.distance
+                                                           : all ? targets.clearance()
+                                                                 : kTried * targets.clearance();
   result.proved = proved;
-  if (roundedDownTo2Digits(tried) > proved)
-    result.proved = std::max(proved, provedClearance(checker, path, tried, proved));
+  if (tried > proved)
+    result.proved =
+        std::max(proved, provedClearance(checker, targets, path, tried, proved, closest));
+  result.proved = roundedDownTo3Digits(result.proved);
   if (path.size() == 1) result.shareOnTarget = result.proved >= targets.least() ? 1 : 0;
+  result.smallest = closest.distance;
+  if (std::isinf(closest.distance)) return result;
+  const MotionPair& pair = checker.scene().motionPairs()[closest.pair];
+  result.edge = closest.edge;
+  result.t = closest.t;
+  result.a = checker.model().bodies[checker.bodyOf(pair.bodyA)].name;
+  result.b = checker.model().bodies[checker.bodyOf(pair.bodyB)].name;
   return result;
 }
 

@@ -23,6 +23,7 @@
 #include "planner/solve/joints_to_hold.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/ompl_goal.h"
+#include "planner/solve/replan_on_target.h"
 #include "planner/solve/simplify_path.h"
 #include "planner/solve/why_not_free.h"
 
@@ -43,6 +44,10 @@ constexpr double kProgressPeriod = 0.1;  // s
 /// Measured on arms, it is reached nearly everywhere. A larger clearance is approached by doubling,
 /// from kSmallClearance or from the clearance divided by kClearanceDivisor, whichever is larger.
 constexpr double kSmallClearance = 0.005, kClearanceDivisor = 8;
+/// The number of edges that are tested to replan stretches with too little clearance: kReplanEdges,
+/// and kReplanShare times those of the search.
+constexpr std::uint64_t kReplanEdges = 5000, kReplanShare = 5;
+
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
 /// directly, and throws for spaces in which it can't. For such a space this class samples the whole
 /// space and rejects states that can't improve the path.
@@ -341,7 +346,10 @@ bool SolveRun::certified(const Path& path) {
   const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
   const bool isKnown = edges_ && testsAreProofs();
   const bool holds = isCertified(checker_, path, isKnown ? &*edges_ : nullptr);
-  if (holds && targets_) report_.clearance = proveClearance(checker_, *targets_, path, *onTarget_);
+  if (holds && targets_) {
+    report_.clearance = proveClearance(checker_, *targets_, path, *onTarget_);
+    if (report_.clearance->shareOnTarget < 1) report_.clearance->why = whyOffTarget_;
+  }
   report_.certificationTime += clock_.seconds() - before;
   // `plan` counts the whole of `finish` as search, so the certification is subtracted here.
   report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;
@@ -393,8 +401,14 @@ Path SolveRun::withClearance(const Path& path, const std::function<bool()>& stop
     onTarget_.emplace(
         [this](const Configuration& a, const Configuration& b) { return targets_->areKept(a, b); });
     clear = corridor::withClearance(*targets_, space, clear, longest, *edges_, *onTarget_, stop);
-    if (part >= clearance) return clear;
+    if (part >= clearance) break;
   }
+  const ReplanLimits limits{longest, kReplanEdges + kReplanShare * validator_->checkedMotions(),
+                            stop};
+  ReplannedPath replanned =
+      replannedOnTarget(space_, *targets_, clear, *edges_, *onTarget_, limits);
+  whyOffTarget_ = replanned.why;
+  return std::move(replanned.path);
 }
 
 void SolveRun::finish() {

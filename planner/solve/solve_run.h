@@ -124,6 +124,7 @@ class SolveRun {
   // Set if a clearance is preferred: the targets, and the edges that keep them.
   std::optional<ClearanceTargets> targets_;
   std::optional<EdgeMemory> onTarget_;
+  WhyOffTarget whyOffTarget_ = WhyOffTarget::unknown;
   bool optimises_ = false;
   std::atomic<bool> endedByTime_ = false;  // set by any thread of the planner
   std::mutex progressMutex_;
