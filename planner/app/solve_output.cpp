@@ -35,6 +35,14 @@ std::array<double, kSolvePhases.size()> secondsOf(const Solved& solved) {
           r.trajectoryTime};
 }
 
+std::string provedText(double metres) {
+  return metres > 0 ? "proved: " + rounded(1e3 * metres) + " mm"
+                    : "free, but no distance is proved";
+}
+std::string percent(double share) {
+  return rounded(std::floor(1e3 * share) / 10) + " %";
+}
+
 std::string reasonOf(WhyOffTarget why) {
   switch (why) {
     case WhyOffTarget::detour:
@@ -53,16 +61,14 @@ std::string reasonOf(WhyOffTarget why) {
 /// Returns the lines of the report about the clearance of the path.
 std::vector<std::string> clearanceLines(const PathClearance& c) {
   std::vector<std::string> lines;
-  lines.push_back(c.proved > 0 ? "proved: " + rounded(1e3 * c.proved) + " mm"
-                               : "free, but no distance is proved");
+  lines.push_back(provedText(c.proved));
   if (std::isfinite(c.smallestAtEnds))
     lines.back() += " (start and goal themselves: " + rounded(1e3 * c.smallestAtEnds) + " mm)";
   if (!c.a.empty())
     lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
   lines.push_back("every pair keeps the preferred distance, as far as start and goal allow, on " +
-                  rounded(std::floor(1e3 * c.shareOnTarget) / 10) + " % of the length" +
-                  reasonOf(c.why));
+                  percent(c.shareOnTarget) + " of the length" + reasonOf(c.why));
   return lines;
 }
 
@@ -96,6 +102,13 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
                                " between rows " + std::to_string(made.failedPiece) + " and " +
                                std::to_string(made.failedPiece + 1),
            made.proved() ? Tone::good : Tone::bad);
+  if (made.clearance)
+    out.line(
+        "trajectory clearance",
+        provedText(made.clearance->proved) + "; every pair keeps the preferred distance " +
+            (made.clearance->shareOnTarget == 1
+                 ? "everywhere"
+                 : "on " + percent(made.clearance->shareOnTarget) + " of the curves between rows"));
   out.line("limits", limitsText(p, made.ratios),
            keepsLimits(made.ratios) ? Tone::plain : Tone::bad);
   for (const std::string& note : p.task.limits.notes) out.line("note", note);
@@ -108,6 +121,9 @@ ordered_json trajectoryJson(const Problem& p, const MadeTrajectory& made) {
                     {"corners", made.corners},         {"corners_rounded", made.rounded},
                     {"why_stops", made.whyStops},      {"curve_tests", made.curveTests},
                     {"stretch", made.stretch},         {"notes", p.task.limits.notes}};
+  if (made.clearance)
+    j["clearance"] = {{"proved_m", made.clearance->proved},
+                      {"share_on_target", made.clearance->shareOnTarget}};
   addLimits(j, made.ratios);
   return j;
 }
@@ -153,8 +169,6 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   out.line("certified", r.certified ? "yes" + except : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
   if (r.trajectory) printTrajectory(out, p, *r.trajectory, except);
-  if (r.trajectory && r.clearance)
-    out.line("note", "the clearance is the path's; corridor verify reports the trajectory's");
   if (a.output) out.line("solution", *a.output);
   if (r.trajectory && r.trajectory->proved()) out.line("trajectory file", *a.trajectory);
   if (a.picture) out.line("picture", *a.picture);

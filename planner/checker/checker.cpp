@@ -308,7 +308,8 @@ MotionResult Checker::certify(const Configuration& from, const Configuration& to
   return decide(from, to, options, workspace, !query.earliest && !query.margins);
 }
 
-MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const {
+MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest,
+                                   const PairMargins* margins) const {
   const auto size = static_cast<Eigen::Index>(space().size());
   if (piece.coefficients.rows() != size || piece.error.size() != size || piece.degree() < 1 ||
       piece.degree() > CurvePiece::kLargestDegree || !piece.error.allFinite() ||
@@ -321,6 +322,7 @@ MotionResult Checker::certifyCurve(const CurvePiece& piece, bool earliest) const
     return refused(UndecidedReason::beyondProofs);
   MotionOptions options = options_;
   options.earliest = earliest;
+  if (margins) options.pairMargins = margins;
   Workspace& workspace = workspaceOfThread();
   workspace.motion.set(piece);
   return scene_.certify(workspace.motion, options, workspace.context, EdgeMethod::certified);

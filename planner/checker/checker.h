@@ -153,8 +153,10 @@ class Checker {
   /// @param earliest whether to search for the first contact, as in `EdgeQuery`.
   /// @throws std::invalid_argument if the piece has another number of rows than a configuration has
   /// numbers, a degree that is not from 1 to 9, or an `error` that is negative, not finite, or of
-  /// another size.
-  MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false) const;
+  /// another size; and for margins that are negative or not finite.
+  /// @param margins as in `EdgeQuery`.
+  MotionResult certifyCurve(const CurvePiece& piece, bool earliest = false,
+                            const PairMargins* margins = nullptr) const;
   /// Returns a contact of a tested pair at the rounded poses of the frames, or nullopt if no pair
   /// is in contact. The test is exact for meshes, as `Scene::interference` states. Margin, padding,
   /// tolerance and tube are ignored.

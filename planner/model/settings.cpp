@@ -35,6 +35,12 @@ const std::vector<std::string>& wordsFor<Smoothing>() {
   return words;
 }
 
+template <>
+const std::vector<std::string>& wordsFor<ClearanceOf>() {
+  static const std::vector<std::string> words{"trajectory", "path"};
+  return words;
+}
+
 std::string ClosedRange::text() const {
   return "a number from " + shortest(lower) + " to " + shortest(upper);
 }

@@ -26,9 +26,12 @@ enum class Simplifier { corridor, none, ompl };
 /// acceleration (solve/curve_measure.h).
 enum class Smoothing { none, corners, time, length, acceleration };
 
+/// What keeps the preferred clearance: the path, and a trajectory along it; or only the path.
+enum class ClearanceOf { trajectory, path };
+
 /// Returns the words that users write for the enumerators of a choice, in the order of the
 /// enumeration.
-/// @tparam Choice EdgeMethod, ValidSampler, Objective, Simplifier or Smoothing.
+/// @tparam Choice EdgeMethod, ValidSampler, Objective, Simplifier, Smoothing or ClearanceOf.
 template <class Choice>
 const std::vector<std::string>& wordsFor();
 template <>
@@ -41,6 +44,8 @@ template <>
 const std::vector<std::string>& wordsFor<Simplifier>();
 template <>
 const std::vector<std::string>& wordsFor<Smoothing>();
+template <>
+const std::vector<std::string>& wordsFor<ClearanceOf>();
 
 /// Returns the word that users write for an enumerator.
 template <class Choice>
@@ -97,6 +102,7 @@ struct PreferSettings {
   /// The largest extra length of the path, as a fraction of the length of the shortest path that
   /// was found.
   double detour = 0.1;
+  ClearanceOf clearanceOf = ClearanceOf::trajectory;
 };
 
 /// The range of the numbers from `lower` to `upper`, both included.

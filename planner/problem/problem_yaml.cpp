@@ -152,6 +152,8 @@ void readPrefer(const YamlMap& file, double margin, Settings& settings) {
   PreferSettings& prefer = settings.prefer;
   prefer.clearance = map.number("clearance", Range::NotNegative);
   prefer.detour = map.number("detour", Range::NotNegative).value_or(prefer.detour);
+  if (const auto word = map.choice("clearance_of", wordsFor<ClearanceOf>()))
+    prefer.clearanceOf = *choiceNamed<ClearanceOf>(*word);
   if (!(prefer.clearance.value_or(0) > 0)) return;
   if (const auto why = whyNoClearance(margin, settings)) map.fault("clearance", *why);
 }

@@ -71,6 +71,7 @@ py::dict trajectoryDict(const MadeTrajectory& made) {
   d["duration"] = made.duration;
   d["proved"] = made.proved();
   d["keeps_limits"] = keepsLimits(made.ratios);
+  d["proved_clearance_m"] = made.clearance ? py::cast(made.clearance->proved) : py::none();
   return d;
 }
 

@@ -130,12 +130,21 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
       clearance_(clearance),
       smallestAtEnds_(std::numeric_limits<double>::infinity()),
       targets_(targetsOf(checker, clearance, start, goal, smallestAtEnds_)),
+      reserved_(scaled(1 + kReserve)),
       clearances_(std::vector(targets_.size(), clearance)),
       near_(targets_.all()),
       weights_(tangentWeights(checker.space())) {
   std::vector<double> near = targets_.all();
   for (double& length : near) length *= kNear;
   near_ = PairMargins(std::move(near));
+}
+
+PairMargins ClearanceTargets::scaled(double factor) const {
+  std::vector<double> lengths = targets_.all();
+  const PairMargins* padding = checker_.options().pairMargins;
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+    lengths[k] = std::max(factor * lengths[k], padding ? (*padding)[k] : 0);
+  return PairMargins(std::move(lengths));
 }
 
 /// Searches an edge for the pair and the time at which distance / entry in `lengths` is the
@@ -173,15 +182,15 @@ std::optional<ClearanceTargets::Worst> ClearanceTargets::missedOn(const Configur
                                                                   const Configuration& to,
                                                                   double enough) const {
   // Hulls and samples go first: they answer most edges, and are quicker than a proof that fails.
-  const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, targets_);
+  const std::vector<std::uint32_t> pairs = checker_.pairsLeftByHulls(from, to, reserved_);
   if (pairs.empty() && !checker_.scene().pairs().empty()) return std::nullopt;
-  Worst worst = worstOn(from, to, targets_, pairs, enough);
+  Worst worst = worstOn(from, to, reserved_, pairs, enough);
   if (worst.share < 1) return worst;
-  const MotionResult result = checker_.certifyEdge(from, to, {.margins = &targets_});
+  const MotionResult result = checker_.certifyEdge(from, to, {.margins = &reserved_});
   if (result.verdict == MotionVerdict::free) return std::nullopt;
   if (result.time < 0) return worst;
   // The samples missed it. They may meet it near the place where the proof fails.
-  worst = worstOn(from, to, targets_, pairs, enough, result.time);
+  worst = worstOn(from, to, reserved_, pairs, enough, result.time);
   if (worst.share >= 1) {
     worst.t = result.time;
     worst.share = kJustMissed;

@@ -25,6 +25,9 @@ const char* nameOf(WhyOffTarget why);
 /// a larger distance than its ends have. A target is never below the pair's padding. (With 70 %, it
 /// takes little work to prove that the edges at the ends keep the targets.)
 ///
+/// Edges are proved to keep the targets with a reserve of a fiftieth (`areKept`), so that curves
+/// near them keep the targets, too.
+///
 /// The *share* of a pair in a state is the pair's distance divided by the pair's target, at most 1.
 class ClearanceTargets {
  public:
@@ -42,10 +45,14 @@ class ClearanceTargets {
   /// Returns the targets, metres, one for each pair of `Scene::pairs()`.
   const PairMargins& all() const { return targets_; }
 
-  /// Returns whether every pair is proved to keep its target on the whole edge.
+  /// Returns whether every pair is proved to keep its target, and the reserve, on the whole edge.
   bool areKept(const Configuration& from, const Configuration& to) const {
-    return checker_.certifyEdge(from, to, {.margins = &targets_}).verdict == MotionVerdict::free;
+    return checker_.certifyEdge(from, to, {.margins = &reserved_}).verdict == MotionVerdict::free;
   }
+  /// The reserve, as a fraction of the targets.
+  static constexpr double kReserve = 0.02;
+  /// Returns the targets, multiplied by a factor, but not below the paddings.
+  PairMargins scaled(double factor) const;
   /// The pair with the smallest share on an edge, and the time at which it has this share.
   struct Worst {
     double share = 1;     ///< 1: no pair is below its target at a sample
@@ -86,7 +93,7 @@ class ClearanceTargets {
 
   const Checker& checker_;
   double clearance_, smallestAtEnds_;
-  PairMargins targets_, clearances_, near_;
+  PairMargins targets_, reserved_, clearances_, near_;
   TangentStep weights_;
 };
 

@@ -82,14 +82,32 @@ LawfulCurve withLaw(const Problem& problem, std::vector<CurvePiece> pieces) {
   return {std::move(pieces), std::move(law)};
 }
 
+/// What the curve of a trajectory must keep.
+struct Wanted {
+  const CurveClearance* clearance = nullptr;  // null: it must be free
+  std::vector<double> fractions = {};         // of the targets, which each edge of the path keeps
+  bool everywhere() const {
+    return std::ranges::all_of(fractions, [](double each) { return each == 1; });
+  }
+};
+
+Wanted wantedOn(const Path& path, const CurveClearance* clearance) {
+  Wanted wanted{clearance};
+  for (std::size_t i = 0; clearance && i + 1 < path.size(); ++i)
+    wanted.fractions.push_back(clearance->fractionKept(path[i], path[i + 1]));
+  return wanted;
+}
+
 /// Makes the curve that the trajectory passes along, and counts its corners and tests.
 LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Path& path,
-                        const std::function<bool()>& stop, MadeTrajectory& made) {
+                        const Wanted& wanted, const std::function<bool()>& stop,
+                        MadeTrajectory& made) {
   const ConfigurationSpace& space = problem.model.space;
-  const SmoothOptions options =
-      smoothOptions(space, problem.task.limits, problem.settings.trajectory);
-  const CurveTest isFree = [&](const CurvePiece& piece) {
-    return checker.certifyCurve(piece).verdict == MotionVerdict::free;
+  SmoothOptions options = smoothOptions(space, problem.task.limits, problem.settings.trajectory);
+  options.fractions = wanted.fractions;
+  const CurveTest isFree = [&](const CurvePiece& piece, double fraction) {
+    return wanted.clearance ? wanted.clearance->isKept(piece, fraction)
+                            : checker.certifyCurve(piece).verdict == MotionVerdict::free;
   };
   SmoothPath smooth = smoothedPath(space, path, isFree, options, stop);
   made.corners = smooth.corners;
@@ -98,6 +116,7 @@ LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Pa
   if (options.goal == Smoothing::none || options.goal == Smoothing::corners ||
       std::isfinite(options.deviation))
     return withLaw(problem, std::move(smooth.pieces));
+  options.fractions = std::move(smooth.fractions);
   ShortCurve curve = shortenedCurve(space, smooth.pieces, isFree, options, stop);
   made.curveTests += curve.tests;
   LawfulCurve whole = withLaw(problem, std::move(curve.pieces));
@@ -113,18 +132,30 @@ LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Pa
 }
 
 /// Proves the pieces of a curve in order, up to the first one that can't be proved.
-void prove(const Checker& checker, MadeTrajectory& made) {
+void prove(const Checker& checker, const Wanted& wanted, MadeTrajectory& made) {
   made.proof = {};
-  for (std::size_t k = 0; k < made.curve.pieces.size(); ++k) {
-    made.proof = checker.certifyCurve(made.curve.pieces[k]);
+  made.clearance.reset();
+  made.losesClearance = false;
+  const std::vector<CurvePiece>& pieces = made.curve.pieces;
+  std::vector<char> kept(pieces.size(), 0);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (wanted.clearance && wanted.clearance->keepsTargets(pieces[k])) {
+      kept[k] = 1;
+      continue;
+    }
+    made.proof = checker.certifyCurve(pieces[k]);
     made.failedPiece = k;
     if (made.proof.verdict != MotionVerdict::free) return;
   }
+  made.proof.verdict = MotionVerdict::free;
+  if (!wanted.clearance) return;
+  made.clearance = wanted.clearance->prove(pieces, kept);
+  made.losesClearance = made.clearance->shareOnTarget < 1 && wanted.everywhere();
 }
 
 /// Makes the text of rows, and proves the curve that the text describes.
-void proveText(const Problem& problem, const Checker& checker, const std::vector<TimedRow>& rows,
-               TrajectoryFileKind kind, MadeTrajectory& made) {
+void proveText(const Problem& problem, const Checker& checker, const Wanted& wanted,
+               const std::vector<TimedRow>& rows, TrajectoryFileKind kind, MadeTrajectory& made) {
   const ConfigurationSpace& space = problem.model.space;
   try {
     made.text = textOf(rows, problem.model, made.between, kind);
@@ -140,14 +171,14 @@ void proveText(const Problem& problem, const Checker& checker, const std::vector
     made.fault = error.what();
     return;
   }
-  prove(checker, made);
+  prove(checker, wanted, made);
 }
 
 /// Makes the rows along a curve and their text, and proves the curve that the text describes.
 /// `limits` are those of the time law.
-void makeText(const Problem& problem, const Checker& checker, const LawfulCurve& curve,
-              const JointLimits& limits, TrajectoryFileKind kind, double deviation,
-              MadeTrajectory& made) {
+void makeText(const Problem& problem, const Checker& checker, const Wanted& wanted,
+              const LawfulCurve& curve, const JointLimits& limits, TrajectoryFileKind kind,
+              double deviation, MadeTrajectory& made) {
   const ConfigurationSpace& space = problem.model.space;
   const KinematicTree& tree = problem.model.tree;
   made.fault = curve.law.fault;
@@ -160,7 +191,7 @@ void makeText(const Problem& problem, const Checker& checker, const LawfulCurve&
   made.fault = emission.fault;
   if (!made.fault.empty()) return;
   made.stretch = emission.stretch;
-  proveText(problem, checker, emission.rows, kind, made);
+  proveText(problem, checker, wanted, emission.rows, kind, made);
 }
 
 /// A path of at most this length, rad or m, is one on which nothing moves: no encoder resolves it,
@@ -186,8 +217,8 @@ Path withoutStillEdges(const ConfigurationSpace& space, const Path& path) {
 
 /// Returns two rows, at rest at the first and at the last state of a path on which nothing moves.
 /// The time from one to the other is 1 ms, a controller's period, or longer if limits need it.
-MadeTrajectory standing(const Problem& problem, const Checker& checker, const Path& path,
-                        TrajectoryFileKind kind) {
+MadeTrajectory standing(const Problem& problem, const Checker& checker, const Wanted& wanted,
+                        const Path& path, TrajectoryFileKind kind) {
   MadeTrajectory made;
   made.between =
       limitsJerk(problem.task.limits) ? RowInterpolation::quintic : RowInterpolation::cubic;
@@ -199,8 +230,8 @@ MadeTrajectory standing(const Problem& problem, const Checker& checker, const Pa
           2 * std::numbers::pi * std::round((path.front()[i] - last[i]) / (2 * std::numbers::pi));
   double seconds = 1e-3;
   for (int attempt = 0; attempt < 30; ++attempt, seconds *= 2) {
-    proveText(problem, checker, {{0, path.front(), rest, rest}, {seconds, last, rest, rest}}, kind,
-              made);
+    proveText(problem, checker, wanted,
+              {{0, path.front(), rest, rest}, {seconds, last, rest, rest}}, kind, made);
     if (made.isGood() || !made.fault.empty()) break;
   }
   return made;
@@ -208,14 +239,15 @@ MadeTrajectory standing(const Problem& problem, const Checker& checker, const Pa
 
 /// Makes texts along a curve until one is proved and keeps the limits. Completes and returns
 /// `made`.
-MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, LawfulCurve curve,
-                           TrajectoryFileKind kind, int attempts, MadeTrajectory made) {
+MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, const Wanted& wanted,
+                           LawfulCurve curve, TrajectoryFileKind kind, int attempts,
+                           MadeTrajectory made) {
   JointLimits limits = problem.task.limits;
   made.between = limitsJerk(limits) ? RowInterpolation::quintic : RowInterpolation::cubic;
   double deviation = problem.settings.trajectory.deviation, share = 1;
   std::optional<MadeTrajectory> proved;
   for (int i = 0; i < attempts && made.fault.empty(); ++i) {
-    makeText(problem, checker, curve, limits, kind, deviation, made);
+    makeText(problem, checker, wanted, curve, limits, kind, deviation, made);
     if (made.isGood()) return made;
     if (made.proved()) proved = made;
     deviation /= 4;
@@ -245,37 +277,41 @@ double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>&
 }  // namespace
 
 MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& along,
-                              TrajectoryFileKind kind, const std::function<bool()>& stop) {
+                              TrajectoryFileKind kind, const std::function<bool()>& stop,
+                              const CurveClearance* clearance) {
   const ConfigurationSpace& space = problem.model.space;
   const Path path = withoutStillEdges(space, along);
-  if (isStill(space, path)) return standing(problem, checker, path, kind);
+  const Wanted wanted = wantedOn(path, clearance);
+  if (isStill(space, path)) return standing(problem, checker, wanted, path, kind);
   MadeTrajectory begun;
-  LawfulCurve smooth = smoothCurve(problem, checker, path, stop, begun);
+  LawfulCurve smooth = smoothCurve(problem, checker, path, wanted, stop, begun);
   MadeTrajectory made =
-      provedAlong(problem, checker, std::move(smooth), kind, kTrajectoryAttempts, begun);
+      provedAlong(problem, checker, wanted, std::move(smooth), kind, kTrajectoryAttempts, begun);
   if (begun.rounded + begun.replaced == 0 || !begun.fault.empty()) return made;
 
   // Corners that are rounded by little may cost more time than stops.
   std::vector<CurvePiece> lines =
-      smoothedPath(space, path, [](const CurvePiece&) { return false; }).pieces;
+      smoothedPath(space, path, [](const CurvePiece&, double) { return false; }).pieces;
   if (made.isGood() && made.duration <= leastTimeWithStops(problem, lines)) return made;
   begun.rounded = begun.replaced = 0;
-  MadeTrajectory stopping = provedAlong(problem, checker, withLaw(problem, std::move(lines)), kind,
-                                        kTrajectoryAttempts, std::move(begun));
+  MadeTrajectory stopping =
+      provedAlong(problem, checker, wanted, withLaw(problem, std::move(lines)), kind,
+                  kTrajectoryAttempts, std::move(begun));
   const bool isBetter = stopping.isGood() ? !made.isGood() || stopping.duration < made.duration
                                           : stopping.proved() && !made.proved();
   if (!isBetter) return made;
-  stopping.whyStops = made.isGood()        ? "stops at the corners are faster"
-                      : made.proved()      ? "the trajectory along the rounded path exceeds limits"
-                      : made.fault.empty() ? "the rounded path is not proved"
-                                           : "the rounded path has no trajectory: " + made.fault;
+  stopping.whyStops = made.isGood()         ? "stops at the corners are faster"
+                      : made.losesClearance ? "the rounded path does not keep the clearance"
+                      : made.proved()       ? "the trajectory along the rounded path exceeds limits"
+                      : made.fault.empty()  ? "the rounded path is not proved"
+                                            : "the rounded path has no trajectory: " + made.fault;
   return stopping;
 }
 
 MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,
                                const std::vector<CurvePiece>& curve, TrajectoryFileKind kind,
                                int attempts) {
-  return provedAlong(problem, checker, withLaw(problem, curve), kind, attempts, {});
+  return provedAlong(problem, checker, {}, withLaw(problem, curve), kind, attempts, {});
 }
 
 }  // namespace corridor

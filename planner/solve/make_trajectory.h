@@ -4,6 +4,7 @@
 
 #include "planner/checker/checker.h"
 #include "planner/problem/problem.h"
+#include "planner/solve/curve_clearance.h"
 #include "planner/solve/finish_path.h"
 #include "planner/trajectory/rows_limits.h"
 
@@ -32,7 +33,11 @@ struct MadeTrajectory {
   /// `proof` is the answer for the first piece that could not be proved.
   MotionResult proof;
   std::size_t failedPiece = 0;  ///< if there is no proof: index into curve.pieces
-  std::string fault;            ///< why there is no trajectory, one line; or ""
+  /// The clearance of `curve`; set if it is proved, and `makeTrajectory` got targets.
+  std::optional<CurveProof> clearance;
+  /// Whether the curve misses targets, although the path keeps all.
+  bool losesClearance = false;
+  std::string fault;  ///< why there is no trajectory, one line; or ""
   /// Why the robot stops at all corners although some were rounded, one line; or "".
   std::string whyStops;
 
@@ -41,8 +46,9 @@ struct MadeTrajectory {
     return fault.empty() && proof.verdict == MotionVerdict::free &&
            ratios.position.share <= kLimitSlack;
   }
-  /// Whether the file's curve is proved (see `proved`) and keeps all limits.
-  bool isGood() const { return proved() && keepsLimits(ratios); }
+  /// Whether the file's curve is proved (see `proved`), keeps all limits, and no pair comes closer
+  /// than on the path because of it.
+  bool isGood() const { return proved() && keepsLimits(ratios) && !losesClearance; }
 };
 
 /// The maximum number of times that a trajectory is made, each time with a smaller deviation.
@@ -75,10 +81,13 @@ inline constexpr int kTrajectoryAttempts = 4;
 /// The result depends on the arguments only, unless `stop` returns true: then smoothing ends, and
 /// the curve stays as it is.
 /// @param path its edges should be free: if one is not, the result is not proved.
+/// @param clearance if not null, the curve keeps the clearance targets where the path keeps them,
+/// and elsewhere the fraction of them that the path keeps.
 MadeTrajectory makeTrajectory(
     const Problem& problem, const Checker& checker, const Path& path,
     TrajectoryFileKind kind = TrajectoryFileKind::csv,
-    const std::function<bool()>& stop = [] { return false; });
+    const std::function<bool()>& stop = [] { return false; },
+    const CurveClearance* clearance = nullptr);
 
 /// Makes a trajectory along a curve: steps 2 to 4 of `makeTrajectory`, for curves from elsewhere.
 /// The members `corners`, `rounded`, `replaced` and `curveTests` of the result are 0.

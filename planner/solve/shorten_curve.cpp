@@ -57,6 +57,8 @@ class Shortener {
         goal_(options.goal),
         ruler_(space, options.velocity, options.acceleration) {
     result_.pieces = std::move(pieces);
+    fractions_ = options.fractions;
+    fractions_.resize(result_.pieces.size(), 0);
     for (const CurvePiece& piece : result_.pieces) measured_.push_back(ruler_.of(piece));
     for (std::size_t k = 0; k + 1 < result_.pieces.size(); ++k)
       angles_.push_back(angleBetween(result_.pieces[k], result_.pieces[k + 1]));
@@ -168,10 +170,10 @@ class Shortener {
     return piece;
   }
 
-  bool isProved(const CurvePiece& piece) {
+  bool isProved(const CurvePiece& piece, double fraction) {
     if (!isWithinBounds(space_, piece)) return false;
     ++result_.tests;
-    return isFree_(piece);
+    return isFree_(piece, fraction);
   }
 
   /// Replaces the part between two places by a new piece, if the new piece is proved and reduces
@@ -235,7 +237,12 @@ class Shortener {
     if (!best) return;
     if (!before.empty()) best->coefficients.col(0) = before[0].coefficients.rightCols<1>();
     if (!after.empty()) best->coefficients.col(5) = after[0].coefficients.col(0);
-    if (!isProved(*best)) return;
+    std::vector<double> fractions(own.size(), 1);
+    for (std::size_t k = from.piece; k <= last; ++k)
+      fractions[place] = std::min(fractions[place], fractions_[k]);
+    if (!before.empty()) fractions.front() = fractions_[from.piece];
+    if (!after.empty()) fractions.back() = fractions_[last];
+    if (!isProved(*best, fractions[place])) return;
 
     own[place] = std::move(bestMeasured);
     value_ = least;
@@ -255,6 +262,7 @@ class Shortener {
     exchange(madeIn_, now);
     exchange(angles_, joints);
     exchange(measured_, own);
+    exchange(fractions_, fractions);
     exchange(result_.pieces, inserted);
     end_ += inserted.size() - (last + 1 - from.piece);
     ++result_.replaced;
@@ -266,8 +274,9 @@ class Shortener {
   Smoothing goal_;
   CurveRuler ruler_;
   std::vector<MeasuredPiece> measured_;
-  std::vector<double> angles_;  // from each piece to the next; 0: the tangent is continuous
-  std::vector<int> madeIn_;     // the pass in which each piece was made
+  std::vector<double> angles_;     // from each piece to the next; 0: the tangent is continuous
+  std::vector<int> madeIn_;        // the pass in which each piece was made
+  std::vector<double> fractions_;  // of the clearance targets, which each piece keeps
   int pass_ = 0;
   double value_ = 0;  // the measure that is reduced, of the section
   ShortCurve result_;

@@ -41,7 +41,7 @@ class Smoother {
         goal_(options.goal),
         ruler_(space, options.velocity, options.acceleration),
         stop_(stop) {
-    unwrap(path);
+    unwrap(path, options.fractions);
   }
 
   SmoothPath run() {
@@ -58,10 +58,13 @@ class Smoother {
  private:
   /// Copies the states, without those that are equal to the state before. The angles of circles
   /// continue beyond ±π.
-  void unwrap(const Path& path) {
+  void unwrap(const Path& path, const std::vector<double>& fractions) {
     states_.push_back(path.front());
     if (path.size() == 1) return;
+    std::size_t k = 0;
     for (const CurvePiece& edge : curveOfPath(space_, path).pieces) {
+      const double fraction = k < fractions.size() ? fractions[k] : 0;
+      ++k;
       const Configuration next = edge.coefficients.col(1);
       const double length = ruler_.timeOf(next - states_.back());
       const bool turns = rotates(space_, states_.back(), next);
@@ -69,9 +72,10 @@ class Smoother {
       if (!edges_.empty() && !turns && !edges_.back().rotates && continues(next, length)) {
         states_.back() = next;
         edges_.back().length = ruler_.timeOf(next - states_[states_.size() - 2]);
+        edges_.back().fraction = std::min(edges_.back().fraction, fraction);
         continue;
       }
-      edges_.push_back({length, turns});
+      edges_.push_back({length, turns, fraction});
       states_.push_back(next);
     }
   }
@@ -110,7 +114,14 @@ class Smoother {
     if (stop_()) return false;
     if (!isWithinBounds(space_, blend.piece)) return false;
     ++result_.tests;
-    return isFree_(blend.piece);
+    return isFree_(blend.piece, fractionOf(blend));
+  }
+
+  double fractionOf(const Blend& blend) const {
+    double least = 1;
+    for (std::size_t k = blend.first; k <= blend.last; ++k)
+      least = std::min(least, edges_[k].fraction);
+    return least;
   }
 
   /// Returns the range of places on an edge that no curve except `own` takes.
@@ -200,26 +211,32 @@ class Smoother {
         if (ruler_.timeOf(begin - here) <= kStraight * edges_[edge].length)
           next->piece.coefficients.col(0) = here;
         else
-          result_.pieces.push_back(linearPiece(space_, here, begin));
-        result_.pieces.push_back(next->piece);
+          add(linearPiece(space_, here, begin), edges_[edge].fraction);
+        add(next->piece, fractionOf(*next));
         result_.rounded += next->last - next->first;
         here = next->piece.coefficients.rightCols<1>();
         edge = next->last;
         ++next;
       } else {
         const Configuration& end = states_[edge + 1];
-        if (end != here) result_.pieces.push_back(linearPiece(space_, here, end));
+        if (end != here) add(linearPiece(space_, here, end), edges_[edge].fraction);
         here = end;
         ++edge;
       }
     }
-    if (result_.pieces.empty()) result_.pieces.push_back(linearPiece(space_, here, here));
+    if (result_.pieces.empty()) add(linearPiece(space_, here, here), 0);
     return std::move(result_);
+  }
+
+  void add(CurvePiece piece, double fraction) {
+    result_.pieces.push_back(std::move(piece));
+    result_.fractions.push_back(fraction);
   }
 
   struct Edge {
     double length = 0;     // CurveRuler::timeOf the edge
     bool rotates = false;  // a rotation moves on it
+    double fraction = 0;   // of the clearance targets, which it keeps
   };
 
   const ConfigurationSpace& space_;

@@ -10,8 +10,9 @@
 
 namespace corridor {
 
-/// Decides whether a piece is proved free of contact.
-using CurveTest = std::function<bool(const CurvePiece&)>;
+/// Decides whether a piece is proved free of contact, and to keep a fraction of the clearance
+/// targets (curve_clearance.h): that of the part of the path that the piece replaces.
+using CurveTest = std::function<bool(const CurvePiece&, double fraction)>;
 
 /// How a path is smoothed.
 struct SmoothOptions {
@@ -20,6 +21,9 @@ struct SmoothOptions {
   /// For each number, its largest velocity and acceleration: the scales of lengths, and the limits
   /// with which times are estimated (curve_measure.h). Infinity: no limit. Empty: all are 1.
   Configuration velocity = {}, acceleration = {};
+  /// The fraction of the clearance targets that each edge of the path keeps, or each piece of the
+  /// curve (`shortenedCurve`). Empty: all are 0.
+  std::vector<double> fractions = {};
   /// What smoothing reduces. `Smoothing::none`: no corner is rounded.
   Smoothing goal = Smoothing::time;
 };
@@ -27,6 +31,7 @@ struct SmoothOptions {
 /// The result of smoothing, and its cost.
 struct SmoothPath {
   std::vector<CurvePiece> pieces;  ///< lines and rounded corners, from the first state to the last
+  std::vector<double> fractions;   ///< that each piece keeps of the clearance targets
   std::size_t corners = 0;         ///< corners of the path
   std::size_t rounded = 0;         ///< corners that became part of a proved curve
   std::size_t tests = 0;           ///< number of pieces that were tested

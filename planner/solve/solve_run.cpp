@@ -438,8 +438,12 @@ void SolveRun::finish() {
                                "whole, from start to goal";
   if (report_.outcome == SolveOutcome::solved && options_.trajectory) {
     const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
-    report_.trajectory = makeTrajectory(problem_, checker_, report_.path, *options_.trajectory,
-                                        [this] { return interrupted(); });
+    std::optional<CurveClearance> kept;
+    if (report_.clearance && problem_.settings.prefer.clearanceOf == ClearanceOf::trajectory)
+      kept.emplace(checker_, *targets_, report_.clearance->proved);
+    report_.trajectory = makeTrajectory(
+        problem_, checker_, report_.path, *options_.trajectory, [this] { return interrupted(); },
+        kept ? &*kept : nullptr);
     report_.trajectoryTime = clock_.seconds() - before;
     report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;
   }

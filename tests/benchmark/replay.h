@@ -183,8 +183,8 @@ inline BenchmarkRun replayedRun(const Problem& planned, double memory, Path& pat
       throw std::runtime_error("replay: " + info.name + " doesn't repeat");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
   if (!file) throw std::runtime_error("replay: a temporary file can't be created");
-  // The first run gets a process of its own, so that both runs begin with fresh generators of random
-  // numbers.
+  // The first run gets a process of its own, so that both runs begin with fresh generators of
+  // random numbers.
   const auto record = [&](const auto& send) {
     Transcript transcript;
     Path ignored;

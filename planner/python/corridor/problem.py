@@ -314,7 +314,7 @@ class Solution:
     certified: bool  #: every edge of `path` is proved, for all pairs except `left_out`
     #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more
     figures: dict[str, Any] = field(default_factory=dict)
-    #: `text`, `duration`, `proved`, `keeps_limits`, `why_none`. Empty if `solve` was called without `trajectory`, or if
+    #: `text`, `duration`, `proved`, `keeps_limits`, `proved_clearance_m`, `why_none`. Empty if `solve` was called without `trajectory`, or if
     #: the problem is not solved
     trajectory: dict[str, Any] = field(default_factory=_NoTrajectory)
     #: pairs that no proof covers: names of the two bodies, and "touch at rest", "within the margin at rest", "allow" or

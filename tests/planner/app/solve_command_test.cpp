@@ -117,6 +117,8 @@ TEST_F(SolveArm, WritesATrajectory) {
   }
   const Result solved = run("solve arm.yaml --trajectory t.csv --rate 100 --json");
   const auto report = nlohmann::json::parse(solved.out)["problems"][0]["trajectory"];
+  EXPECT_EQ(report["clearance"]["share_on_target"], 1);
+  EXPECT_GT(report["clearance"]["proved_m"], 0);
   EXPECT_EQ(report["proved"], true);
   EXPECT_EQ(report["limits"], "kept");
   EXPECT_GE(report["rows"].get<double>(), 100 * report["duration_s"].get<double>());

@@ -40,7 +40,7 @@ sampler: gaussian
 simplify: false
 checker: {edges: discrete, resolution: 0.02, tolerance: 1e-5, volume: obb-binary, fit: hull, overlap: gjk, build: median}
 allow: [[wedge, stone]]
-prefer: {clearance: 0, detour: 0.25}
+prefer: {clearance: 0, detour: 0.25, clearance_of: path}
 padding: {bodies: {wedge: 0.01, stone: 0.002}, pairs: [[rock, wedge, 0.03]]}
 limits: {position: {velocity: 0.5, acceleration: 2}, rotation: {velocity: 3}, velocity_scale: 0.5}
 trajectory: {smooth: length, deviation: 0.001, corner_deviation: 0.02, rate: 250}
@@ -84,6 +84,7 @@ TEST_F(ProblemYaml, EveryKeyIsRead) {
   EXPECT_EQ(p.settings.trajectory.rate, 250);
   EXPECT_EQ(p.settings.prefer.clearance, 0);
   EXPECT_EQ(p.settings.prefer.detour, 0.25);
+  EXPECT_EQ(p.settings.prefer.clearanceOf, ClearanceOf::path);
   EXPECT_EQ(pairCount(p.model), 2);
   EXPECT_EQ(p.model.filter.whyNotTested(0, 1, requiredBy(p.task)), "");
   EXPECT_EQ(p.model.filter.whyNotTested(0, 2, requiredBy(p.task)), "allow");

@@ -46,7 +46,7 @@ TEST_F(ProblemFaults, Prefer) {
             "problem.yaml:8: prefer: a map such as {clearance: …} is needed, not \"0.1\"");
   EXPECT_EQ(with("prefer: {margin: 1}\n"),
             "problem.yaml:8: unknown key \"margin\" in prefer (did you mean margin: … at the top "
-            "level?) (known: clearance, detour)");
+            "level?) (known: clearance, detour, clearance_of)");
   const std::string place = "problem.yaml:9: prefer.clearance: ";
   EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0.1}\n"),
             place + "can't be used with a margin; leave one of the two out");

@@ -48,6 +48,65 @@ TEST_F(MakeTrajectory, IsProvedAsItIsWritten) {
   }
 }
 
+/// Returns the smallest distance of the square from the post at samples of a curve. The square does
+/// not turn.
+double leastDistanceFromPost(const std::vector<CurvePiece>& pieces) {
+  double least = HUGE_VAL;
+  for (const CurvePiece& piece : pieces)
+    for (int i = 0; i <= 50; ++i) {
+      Eigen::MatrixXd c = piece.coefficients;  // de Casteljau
+      for (Eigen::Index rest = c.cols() - 1; rest > 0; --rest)
+        c.leftCols(rest) =
+            ((1 - i / 50.0) * c.leftCols(rest) + i / 50.0 * c.middleCols(1, rest)).eval();
+      const double right = std::abs(c(0, 0) - 1) - 0.2, up = c(1, 0) - 1.1;
+      least = std::min(least, std::hypot(std::max(right, 0.0), std::max(up, 0.0)));
+    }
+  return least;
+}
+
+TEST_F(MakeTrajectory, KeepsTheClearanceOfThePath) {
+  const Problem problem = problemWith();
+  const Checker checker(problem);
+  const ClearanceTargets targets(checker, 0.19, overThePost().front(), overThePost().back());
+  const CurveClearance clearance(checker, targets, targets.least());
+  for (const TrajectoryFileKind kind : {TrajectoryFileKind::csv, TrajectoryFileKind::message}) {
+    const auto made = [&](const CurveClearance* wanted) {
+      return makeTrajectory(
+          problem, checker, overThePost(), kind, [] { return false; }, wanted);
+    };
+    const MadeTrajectory closer = made(nullptr), kept = made(&clearance);
+    EXPECT_LT(leastDistanceFromPost(closer.curve.pieces), 0.15);
+    EXPECT_FALSE(closer.clearance);
+    EXPECT_GE(leastDistanceFromPost(kept.curve.pieces), 0.19);
+    EXPECT_TRUE(kept.isGood());
+    ASSERT_TRUE(kept.clearance);
+    EXPECT_EQ(kept.clearance->shareOnTarget, 1);
+    EXPECT_NEAR(kept.clearance->proved, targets.least(), 1e-3);  // 0.07: the floor at the start
+    EXPECT_GT(kept.rounded, 0u);
+    EXPECT_GT(kept.duration, closer.duration);
+  }
+}
+
+/// Where the path misses a target, the curve keeps the fraction that the path keeps.
+TEST_F(MakeTrajectory, KeepsAFractionWhereThePathDoes) {
+  const Problem problem = problemWith();
+  const Checker checker(problem);
+  const Path path{at(0, 0.2), at(0.5, 1.2), at(1.5, 1.2), at(2, 0.2)};  // 0.1 m above the post
+  const ClearanceTargets targets(checker, 0.19, path.front(), path.back());
+  const CurveClearance clearance(checker, targets, targets.least());
+  EXPECT_EQ(clearance.fractionKept(path[0], at(0.2, 0.6)), 1);
+  EXPECT_EQ(clearance.fractionKept(path[1], path[2]), 0.4);  // 0.1 / 0.19 is 0.53
+  const MadeTrajectory made = makeTrajectory(
+      problem, checker, path, TrajectoryFileKind::csv, [] { return false; }, &clearance);
+  EXPECT_TRUE(made.isGood());
+  EXPECT_FALSE(made.losesClearance);
+  ASSERT_TRUE(made.clearance);
+  EXPECT_LT(made.clearance->shareOnTarget, 1);
+  EXPECT_GT(made.clearance->shareOnTarget, 0);
+  EXPECT_GE(leastDistanceFromPost(made.curve.pieces), 0.4 * 0.19);
+  EXPECT_LE(made.clearance->proved, leastDistanceFromPost(made.curve.pieces));
+}
+
 /// States that differ from a neighbour by roundings cost no time.
 TEST_F(MakeTrajectory, EdgesOfNearlyNothing) {
   const Problem problem = problemWith();

@@ -29,7 +29,7 @@ inline Configuration place(double x, double y) {
   return q;
 }
 
-inline const CurveTest kAllFree = [](const CurvePiece&) { return true; };
+inline const CurveTest kAllFree = [](const CurvePiece&, double) { return true; };
 
 /// Returns the derivative of a piece of the given order by τ, at τ = tau, by de Casteljau's
 /// algorithm.

@@ -166,7 +166,7 @@ TEST(ShortenCurve, GoesAroundDiscs) {
       if (room > 0.1) discs.emplace_back(centre, room - 0.05);
     }
     std::size_t tests = 0;
-    const CurveTest isFree = [&](const CurvePiece& piece) {
+    const CurveTest isFree = [&](const CurvePiece& piece, double) {
       ++tests;
       for (int i = 0; i <= 200; ++i) {
         const Configuration q = configurationAt(space, piece, i / 200.0);
@@ -187,7 +187,7 @@ TEST(ShortenCurve, GoesAroundDiscs) {
       const auto& pieces = curve.pieces;
       EXPECT_EQ(Configuration(pieces.front().coefficients.col(0)), path.front());
       EXPECT_EQ(Configuration(pieces.back().coefficients.rightCols<1>()), path.back());
-      for (std::size_t k = 0; k < pieces.size(); ++k) ASSERT_TRUE(isFree(pieces[k])) << n;
+      for (std::size_t k = 0; k < pieces.size(); ++k) ASSERT_TRUE(isFree(pieces[k], 0)) << n;
       for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
         const CurvePiece &a = pieces[k], &b = pieces[k + 1];
         ASSERT_EQ(Configuration(a.coefficients.rightCols<1>()),
@@ -215,7 +215,7 @@ TEST(ShortenCurve, RemovesStops) {
   const ConfigurationSpace space = lines(2);
   const Path path = {place(0, 0), place(1, 0), place(1, 1)};
   // Nothing may come near the line from the start to the goal, except at its ends.
-  const CurveTest isFree = [&](const CurvePiece& piece) {
+  const CurveTest isFree = [&](const CurvePiece& piece, double) {
     for (int i = 1; i < 100; ++i) {
       const Configuration q = configurationAt(space, piece, i / 100.0);
       if (q[0] - q[1] < 0.4 * std::sin(M_PI * (q[0] + q[1]) / 2)) return false;
@@ -238,7 +238,7 @@ TEST(ShortenCurve, CountsCornersThatStay) {
   const Path path = {place(0, 0), place(4, 0), place(4, 6), place(9, 6), place(9, 12)};
   for (const double width : {0.05, 0.2, 0.6}) {
     // Curves are free only within a distance of the path; the corner at (4, 0) can't be rounded.
-    const CurveTest isFree = [&](const CurvePiece& piece) {
+    const CurveTest isFree = [&](const CurvePiece& piece, double) {
       for (int i = 0; i <= 300; ++i) {
         const Configuration q = configurationAt(space, piece, i / 300.0);
         double nearest = HUGE_VAL;
@@ -266,7 +266,7 @@ TEST(ShortenCurve, CountsCornersThatStay) {
 TEST(ShortenCurve, StaysWithinBounds) {
   const ConfigurationSpace space = lines(2, 1);
   const Path path = {place(-1, 0), place(0, 1), place(1, 0), place(0, -1), place(-1, -0.5)};
-  const CurveTest isFree = [&](const CurvePiece& piece) {  // not through the middle
+  const CurveTest isFree = [&](const CurvePiece& piece, double) {  // not through the middle
     for (int i = 0; i <= 100; ++i)
       if (configurationAt(space, piece, i / 100.0).norm() < 0.5) return false;
     return true;

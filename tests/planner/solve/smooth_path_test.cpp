@@ -74,7 +74,7 @@ TEST(SmoothPath, HasNoLinesOfAnUlp) {
     Path path = {place(0, 0)};
     for (int k = 0; k < 6; ++k) path.push_back(path.back() + place(1 + 0.5 * real(), 2 * real()));
     // Curves over more than one corner are refused, so that all edges stay.
-    const CurveTest isCorner = [&](const CurvePiece& piece) {
+    const CurveTest isCorner = [&](const CurvePiece& piece, double) {
       return piece.coefficients.col(2) == piece.coefficients.col(3) ||
              (piece.coefficients.col(2) - piece.coefficients.col(3)).norm() < 1e-12;
     };
@@ -112,7 +112,7 @@ TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
       return std::all_of(centres.begin(), centres.end(),
                          [&](const Configuration& c) { return (q - c).norm() > radius; });
     };
-    const CurveTest isFree = [&](const CurvePiece& piece) {
+    const CurveTest isFree = [&](const CurvePiece& piece, double) {
       for (int i = 0; i <= 300; ++i)
         if (!isFreeAt(configurationAt(space, piece, i / 300.0))) return false;
       return true;
@@ -123,11 +123,12 @@ TEST(SmoothPath, UsesOnlyCurvesThatAreProved) {
     for (const CurvePiece& piece : smooth.pieces) {
       if (piece.degree() == 1) continue;
       ++curves;
-      ASSERT_TRUE(isFree(piece)) << n;
+      ASSERT_TRUE(isFree(piece, 0)) << n;
     }
     ASSERT_LE(curves, smooth.rounded);
     // If no curve passes the test, the path does not change.
-    const SmoothPath polyline = smoothedPath(space, path, [](const CurvePiece&) { return false; });
+    const SmoothPath polyline =
+        smoothedPath(space, path, [](const CurvePiece&, double) { return false; });
     ASSERT_EQ(polyline.rounded, 0u);
     ASSERT_EQ(polyline.pieces.size(), path.size() - 1);
   }

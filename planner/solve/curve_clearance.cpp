@@ -1,0 +1,66 @@
+#include "planner/solve/curve_clearance.h"
+
+#include <algorithm>
+
+#include "planner/solve/prove_clearance.h"
+
+namespace corridor {
+namespace {
+
+constexpr double kFractions[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};
+/// Each further clearance that is tried for a curve is this fraction of the one before.
+constexpr double kNextOfCurve = 0.85;
+constexpr int kTriesOfCurve = 20;
+
+}  // namespace
+
+CurveClearance::CurveClearance(const Checker& checker, const ClearanceTargets& targets, double most)
+    : checker_(checker), targets_(targets), most_(most) {
+  for (const double fraction : kFractions) {
+    ofEdges_.push_back(targets.scaled((1 + ClearanceTargets::kReserve) * fraction));
+    ofPieces_.push_back(targets.scaled((1 + ClearanceTargets::kReserve / 2) * fraction));
+  }
+}
+
+double CurveClearance::fractionKept(const Configuration& from, const Configuration& to) const {
+  for (std::size_t i = 0; i < ofEdges_.size(); ++i)
+    if (checker_.certifyEdge(from, to, {.margins = &ofEdges_[i]}).verdict == MotionVerdict::free)
+      return kFractions[i];
+  return 0;
+}
+
+bool CurveClearance::isKept(const CurvePiece& piece, double fraction) const {
+  const auto known = std::ranges::find(kFractions, fraction);
+  const PairMargins* margins = known == std::end(kFractions)
+                                   ? nullptr
+                                   : &ofPieces_[static_cast<std::size_t>(known - kFractions)];
+  return checker_.certifyCurve(piece, false, margins).verdict == MotionVerdict::free;
+}
+
+bool CurveClearance::keepsTargets(const CurvePiece& piece) const {
+  return checker_.certifyCurve(piece, false, &targets_.all()).verdict == MotionVerdict::free;
+}
+
+CurveProof CurveClearance::prove(const std::vector<CurvePiece>& pieces,
+                                 const std::vector<char>& kept) const {
+  const auto onTarget = static_cast<std::size_t>(std::ranges::count(kept, 1));
+  CurveProof proof;
+  proof.shareOnTarget = static_cast<double>(onTarget) / static_cast<double>(pieces.size());
+  const double least = onTarget == pieces.size() ? targets_.least() : 0;
+  double tried = std::max(most_, least);
+  // All pieces before this one are proved to keep the clearance that is tried.
+  std::size_t piece = 0;
+  for (int n = 0; n < kTriesOfCurve && tried > least; ++n) {
+    const PairMargins margins(std::vector(targets_.all().size(), tried));
+    while (piece < pieces.size() &&
+           ((kept[piece] && tried <= targets_.least()) ||
+            checker_.certifyCurve(pieces[piece], false, &margins).verdict == MotionVerdict::free))
+      ++piece;
+    if (piece == pieces.size()) break;
+    tried *= kNextOfCurve;
+  }
+  proof.proved = roundedDownTo3Digits(piece == pieces.size() ? tried : least);
+  return proof;
+}
+
+}  // namespace corridor
