@@ -116,6 +116,18 @@ class ProblemReport {
   void reportPadding() {
     const Padding& padding = problem_.task.padding;
     const auto nameOf = [&](std::size_t body) { return problem_.model.bodies[body].name; };
+    const MarginsBeyond& beyond = padding.beyond;
+    if (beyond.largest() > 0) {
+      const double least = problem_.task.margin;
+      json_["margins"] = {{"self_m", least + beyond.self}, {"world_m", least + beyond.world}};
+      out_.line("margin", rounded(least + beyond.self) + " m between links of a robot, " +
+                              rounded(least + beyond.world) + " m between other bodies");
+      for (const auto& [pair, metres] : beyond.pairs) {
+        const std::string a = nameOf(pair.first), b = nameOf(pair.second);
+        json_["margins"]["pairs"].push_back({a, b, least + metres});
+        out_.line("margin", a + " ~ " + b + " " + rounded(least + metres) + " m");
+      }
+    }
     for (const auto& [body, metres] : padding.bodies) {
       json_["padding"]["bodies"][nameOf(body)] = metres;
       out_.line("padding", nameOf(body) + " " + rounded(metres) + " m");

@@ -189,7 +189,10 @@ void print(const VerifyReport& r, const Problem& problem, const LeftOut& leftOut
                               : "at least " + rounded(r.pathReport.provenClearance) +
                                     " m, at most " + rounded(r.pathReport.smallestDistanceMet) +
                                     " m");
-  if (r.margin > 0) out.line("margin", rounded(r.margin) + " m");
+  const double beyond = problem.task.padding.beyond.largest();
+  if (r.margin > 0 || beyond > 0)
+    out.line("margin",
+             rounded(r.margin) + (beyond > 0 ? " to " + rounded(r.margin + beyond) : "") + " m");
   if (!problem.task.padding.empty())
     out.line("padding",
              "up to " + rounded(problem.task.padding.largest()) + " m, as in the problem");

@@ -51,6 +51,9 @@ void requireValid(const CheckerOptions& options, const ConfigurationSpace& space
   };
   requirePadding(options.padding.bodies);
   requirePadding(options.padding.pairs);
+  requirePadding(options.padding.beyond.pairs);
+  for (const double each : {options.padding.beyond.self, options.padding.beyond.world})
+    require(each >= 0 && std::isfinite(each), "every margin must be 0 or more");
   require(!options.tolerance || (*options.tolerance > 0 && std::isfinite(*options.tolerance)),
           "tolerance must be above 0");
   require(

@@ -8,15 +8,37 @@
 
 namespace corridor {
 
-double Padding::of(std::size_t a, std::size_t b, bool sameRobot) const {
+double MarginsBeyond::of(std::size_t a, std::size_t b, bool sameRobot) const {
   if (const auto pair = pairs.find(std::minmax(a, b)); pair != pairs.end()) return pair->second;
-  if (sameRobot) return 0;
+  return sameRobot ? self : world;
+}
+
+double MarginsBeyond::largest() const {
+  double most = std::max(self, world);
+  for (const auto& [both, metres] : pairs) most = std::max(most, metres);
+  return most;
+}
+
+namespace {
+
+/// Returns a + b, rounded up; exactly, if one of them is 0. NaN stays NaN, and is refused.
+double sumOf(double a, double b) {
+  return a == 0 ? b : b == 0 ? a : roundedUp(a + b);
+}
+
+}  // namespace
+
+double Padding::of(std::size_t a, std::size_t b, bool sameRobot) const {
+  const double more = beyond.of(a, b, sameRobot);
+  if (const auto pair = pairs.find(std::minmax(a, b)); pair != pairs.end())
+    return sumOf(pair->second, more);
+  if (sameRobot) return more;
   const auto own = [&](std::size_t body) {
     const auto found = bodies.find(body);
     return found == bodies.end() ? 0 : found->second;
   };
   const double sum = own(a) + own(b);
-  return sum == 0 ? 0 : roundedUp(sum);  // NaN stays NaN, and is refused
+  return sumOf(sum == 0 ? 0 : roundedUp(sum), more);
 }
 
 double Padding::largest() const {
@@ -27,7 +49,7 @@ double Padding::largest() const {
   }
   for (const auto& [both, metres] : pairs) pair = std::max(pair, metres);
   const double sum = first + second;
-  return std::max(sum == 0 ? 0 : roundedUp(sum), pair);
+  return sumOf(std::max(sum == 0 ? 0 : roundedUp(sum), pair), beyond.largest());
 }
 
 Required Required::beyondProofs() {

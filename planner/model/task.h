@@ -19,6 +19,18 @@ struct GoalRegion {
   double joint = 0;     ///< each single joint, rad or m
 };
 
+/// What pairs of bodies keep beyond the margin of a task, if pairs have different margins. Bodies
+/// are given by their indices in the model. Metres, 0 or more.
+struct MarginsBeyond {
+  double self = 0;   ///< pairs of links of the same robot
+  double world = 0;  ///< all other pairs
+  /// Single pairs, with the lower index first, in place of `self` and `world`.
+  std::map<std::pair<std::size_t, std::size_t>, double> pairs;
+
+  double of(std::size_t a, std::size_t b, bool sameRobot) const;
+  double largest() const;
+};
+
 /// Distances that bodies keep in addition to the margin of a task. Bodies are given by their
 /// indices in the model. Metres, 0 or more.
 struct Padding {
@@ -29,8 +41,11 @@ struct Padding {
   /// the two bodies.
   std::map<std::pair<std::size_t, std::size_t>, double> pairs;
 
-  bool empty() const { return bodies.empty() && pairs.empty(); }
-  /// Returns the padding of two bodies, rounded up.
+  /// What pairs keep beyond the margin, and beyond the paddings above.
+  MarginsBeyond beyond = {};
+
+  bool empty() const { return bodies.empty() && pairs.empty() && beyond.largest() == 0; }
+  /// Returns the padding of two bodies, with what they keep beyond the margin, rounded up.
   /// @param sameRobot whether both bodies belong to the same robot.
   double of(std::size_t a, std::size_t b, bool sameRobot) const;
   /// Returns an upper bound of the paddings of all pairs.
@@ -44,7 +59,8 @@ struct Task {
   std::optional<GoalRegion> goalRegion;
   std::optional<double> goalThreshold;  ///< `.cfg` only: largest distance to a goal, in the space's
                                         ///< metric
-  /// Metres that the two bodies of every tested pair must keep apart; 0: touching is contact.
+  /// Metres that the two bodies of every tested pair must keep apart; 0: touching is contact. If
+  /// pairs have different margins, the smallest of them (`MarginsBeyond`).
   double margin = 0;
   Padding padding;
   /// The half widths of the tube that the proof covers, as `tubeOf` returns them.

@@ -70,22 +70,27 @@ void noteOnProofs(Problem& problem) {
          NoteWeight::detail});
 }
 
-constexpr std::string_view kNoteOnPadding = "padding.pairs is not kept between ";
+constexpr std::string_view kNoteOnPadding = ".pairs is not kept between ";
 
 /// Adds a note for each pair with a padding of its own that is not tested. Removes earlier such
 /// notes. (A pair of `never_in_contact` is not tested only if its proof covers the padding.)
 void noteOnPadding(Problem& problem) {
   std::vector<Note>& notes = problem.source.notes;
-  std::erase_if(notes, [](const Note& note) { return note.text.starts_with(kNoteOnPadding); });
+  std::erase_if(notes,
+                [](const Note& note) { return note.text.find(kNoteOnPadding) != note.text.npos; });
   const Required need = requiredBy(problem.task);
-  for (const auto& [pair, metres] : problem.task.padding.pairs) {
-    const std::string_view why = problem.model.filter.whyNotTested(pair.first, pair.second, need);
-    if (metres == 0 || why.empty() || why == kTestedAtRest || why == kNeverInContact) continue;
-    notes.push_back({std::string(kNoteOnPadding) + problem.model.bodies[pair.first].name + " and " +
-                         problem.model.bodies[pair.second].name + ", which are not tested (" +
-                         std::string(why) + ")",
-                     NoteWeight::coverage});
-  }
+  const auto noteEach = [&](const char* key, const auto& pairs) {
+    for (const auto& [pair, metres] : pairs) {
+      const std::string_view why = problem.model.filter.whyNotTested(pair.first, pair.second, need);
+      if (metres == 0 || why.empty() || why == kTestedAtRest || why == kNeverInContact) continue;
+      notes.push_back({key + std::string(kNoteOnPadding) + problem.model.bodies[pair.first].name +
+                           " and " + problem.model.bodies[pair.second].name +
+                           ", which are not tested (" + std::string(why) + ")",
+                       NoteWeight::coverage});
+    }
+  };
+  noteEach("padding", problem.task.padding.pairs);
+  noteEach("margin", problem.task.padding.beyond.pairs);
 }
 
 void addNotes(Problem& problem) {
@@ -207,9 +212,15 @@ void replaceObstacles(const Problem& base, std::vector<ModelBody> obstacles, Pro
   Padding& padding = problem.task.padding = {};
   for (const auto& [body, metres] : base.task.padding.bodies)
     if (places[body]) padding.bodies[*places[body]] = metres;
-  for (const auto& [pair, metres] : base.task.padding.pairs)
-    if (places[pair.first] && places[pair.second])
-      padding.pairs[std::minmax(*places[pair.first], *places[pair.second])] = metres;
+  const auto renumber = [&](const auto& from, auto& to) {
+    for (const auto& [pair, metres] : from)
+      if (places[pair.first] && places[pair.second])
+        to[std::minmax(*places[pair.first], *places[pair.second])] = metres;
+  };
+  renumber(base.task.padding.pairs, padding.pairs);
+  padding.beyond.self = base.task.padding.beyond.self;
+  padding.beyond.world = base.task.padding.beyond.world;
+  renumber(base.task.padding.beyond.pairs, padding.beyond.pairs);
   requireFewPairs(model, problem.source.file.string());
   requireFiniteSizes(model, problem.source.file.string());
   std::set<std::string> ofBodies{kNothingTested};  // notes on the bodies of `base`
@@ -222,6 +233,7 @@ void replaceObstacles(const Problem& base, std::vector<ModelBody> obstacles, Pro
 
 void setMargin(Problem& problem, double margin) {
   problem.task.margin = margin;
+  problem.task.padding.beyond = {};
   noteOnProofs(problem);
   noteOnPadding(problem);
 }

@@ -83,6 +83,7 @@ KeysOfMaps makeProblemKeys() {
       {"limits.rotation", {angleLimitKeys, {}}},
       {"limits.joints.*", {angleLimitKeys, {}}},
       {"padding", {{"bodies", "pairs"}, {}}},
+      {"margin", {{"self", "world", "pairs"}, {}}},
       {"prefer", {{"clearance", "detour", "clearance_of"}, {}}},
       {"trajectory", {{"smooth", "deviation", "corner_deviation", "rate"}, {}}},
       {"planner", {{"name", "time", "stop", "restart", "params"}, {}}},

@@ -1,10 +1,14 @@
 #include "planner/problem/world_yaml.h"
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
+#include "collision/core/rounding.h"
 #include "collision/core/spelling.h"
 #include "planner/problem/keys.h"
 #include "planner/problem/shape_yaml.h"
@@ -185,6 +189,45 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model) {
   return allowed;
 }
 
+namespace {
+
+/// Reads the list `pairs` of a map: two bodies and a length each. @param key of the map
+std::map<std::pair<std::size_t, std::size_t>, double> readPairs(
+    const YamlMap& map, const std::string& key, const BodyNames& names,
+    const std::function<void(const std::string& link)>& noteNoShapes) {
+  std::map<std::pair<std::size_t, std::size_t>, double> all;
+  const YamlValue* pairs = map.find("pairs");
+  if (!pairs) return all;
+  const std::string example = "such as [hand, shelf, 0.02]";
+  if (pairs->kind != YamlValue::Kind::List)
+    map.fault("pairs",
+              "a list of pairs is needed, each with its " + key + " in metres, " + example);
+  for (const YamlValue& item : pairs->items) {
+    bool isWrong = false;
+    const auto fault = [&](const std::string& text) {
+      map.source().fault(item.line, key + ".pairs: " + text);
+      isWrong = true;
+    };
+    if (item.kind != YamlValue::Kind::List || item.items.size() != 3) {
+      fault("two bodies and a " + key + " in metres are needed, " + example);
+      continue;
+    }
+    const auto a = names.find(item.items[0].text, fault), b = names.find(item.items[1].text, fault);
+    double metres = 0;
+    if (!isWrong && !(a && b)) noteNoShapes(item.items[a ? 1 : 0].text);
+    const std::string wrong = parseNumber(item.items[2].text, Range::NotNegative, metres);
+    if (!wrong.empty())
+      fault(wrong);
+    else if (a && b && *a == *b)
+      fault("two different bodies are needed, " + example);
+    else if (a && b && !all.try_emplace(std::minmax(*a, *b), metres).second)
+      fault("the pair has two " + key + "s");
+  }
+  return all;
+}
+
+}  // namespace
+
 Padding readPadding(const YamlMap& file, const Model& model) {
   Padding padding;
   const YamlValue* value = file.find("padding");
@@ -209,33 +252,33 @@ Padding readPadding(const YamlMap& file, const Model& model) {
         padding.bodies[*body] = *metres;
     }
   }
-  const YamlValue* pairs = map.find("pairs");
-  if (!pairs) return padding;
-  const std::string example = "such as [hand, shelf, 0.02]";
-  if (pairs->kind != YamlValue::Kind::List)
-    map.fault("pairs", "a list of pairs is needed, each with its padding in metres, " + example);
-  for (const YamlValue& item : pairs->items) {
-    bool isWrong = false;
-    const auto fault = [&](const std::string& text) {
-      file.source().fault(item.line, "padding.pairs: " + text);
-      isWrong = true;
-    };
-    if (item.kind != YamlValue::Kind::List || item.items.size() != 3) {
-      fault("two bodies and a padding in metres are needed, " + example);
-      continue;
-    }
-    const auto a = names.find(item.items[0].text, fault), b = names.find(item.items[1].text, fault);
-    double metres = 0;
-    if (!isWrong && !(a && b)) noteNoShapes(item.items[a ? 1 : 0].text);
-    const std::string wrong = parseNumber(item.items[2].text, Range::NotNegative, metres);
-    if (!wrong.empty())
-      fault(wrong);
-    else if (a && b && *a == *b)
-      fault("two different bodies are needed, " + example);
-    else if (a && b && !padding.pairs.try_emplace(std::minmax(*a, *b), metres).second)
-      fault("the pair has two paddings");
-  }
+  padding.pairs = readPairs(map, "padding", names, noteNoShapes);
   return padding;
+}
+
+void readMargin(const YamlMap& file, const Model& model, Task& task) {
+  const YamlValue* value = file.find("margin");
+  if (!value || value->kind != YamlValue::Kind::Map) {
+    task.margin = file.number("margin", Range::NotNegative).value_or(task.margin);
+    return;
+  }
+  const YamlMap map(*value, "margin", &problemKeys().at("margin"), file.source());
+  if (value->entries.empty()) file.fault("margin", "self, world or pairs is needed");
+  const double self = map.number("self", Range::NotNegative).value_or(0),
+               world = map.number("world", Range::NotNegative).value_or(0);
+  const auto pairs = readPairs(map, "margin", BodyNames(model), [&](const std::string& link) {
+    file.source().notes.push_back(
+        {"margin.pairs: " + quotedWord(link) + " has no shapes, so its margin is not used",
+         NoteWeight::coverage});
+  });
+  task.margin = std::min(self, world);
+  for (const auto& [pair, metres] : pairs) task.margin = std::min(task.margin, metres);
+  const auto beyond = [&](double metres) {
+    return metres == task.margin ? 0 : roundedUp(metres - task.margin);
+  };
+  MarginsBeyond& all = task.padding.beyond;
+  all = {beyond(self), beyond(world), {}};
+  for (const auto& [pair, metres] : pairs) all.pairs[pair] = beyond(metres);
 }
 
 }  // namespace corridor

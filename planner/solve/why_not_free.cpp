@@ -296,6 +296,15 @@ std::string whyUndecided(UndecidedReason reason) {
   }
 }
 
+/// Returns advice on a margin that two links of one robot do not keep, or "".
+std::string adviceOnLinks(const Checker& checker, const Contact& pair) {
+  const std::vector<ModelBody>& bodies = checker.model().bodies;
+  const ModelBody &a = bodies[checker.bodyOf(pair.bodyA)], &b = bodies[checker.bodyOf(pair.bodyB)];
+  if (!a.robot || a.robot != b.robot) return "";
+  return "margin: {self: …, world: …} sets another one for a robot's own links, and padding: "
+         "{bodies: …} one for links and obstacles only; ";
+}
+
 }  // namespace
 
 std::string whyOutOfBounds(const Configuration& q, const ConfigurationSpace& space) {
@@ -344,7 +353,7 @@ std::optional<std::string> whyNotFree(const Configuration& q, const Checker& che
   if (!undecided || gap <= margin) {
     const auto [gapText, marginText] = orderedTexts(std::min(gap, margin), margin);
     return "too close: " + pair + " are " + gapText + " m apart; more than the " + kept + " of " +
-           marginText + " m is needed" + others + "; " +
+           marginText + " m is needed" + others + "; " + adviceOnLinks(checker, *result.pair) +
            describedFree(nearestFree(q, checker), q, checker.model());
   }
   // `needed` does not include the clearance that the tolerance requires: another message, on the

@@ -12,6 +12,7 @@
 #include "planner/solve/verify_solution.h"
 #include "planner/solve/why_not_free.h"
 #include "tests/planner/checker/hall.h"
+#include "tests/planner/solve/plane_curves.h"
 #include "tests/support/support.h"
 
 namespace corridor {
@@ -69,6 +70,52 @@ TEST(Padding, IsAddedForEachPair) {
     problem.task.margin = margin;
     EXPECT_EQ(isFree(problem), free);
     EXPECT_EQ(verdictOf(problem), free ? PathVerdict::proved : PathVerdict::refuted);
+  }
+}
+
+/// Two balls of one robot slide along x, the second one twice as far: their distance grows from
+/// 0.1 m. An obstacle is 0.2 m from the ways of both.
+TEST(Margins, DifferForLinksAndObstacles) {
+  const double little = 1e-5;
+  struct Case {
+    MarginsBeyond beyond;
+    double margin;
+    bool free;
+  };
+  for (const auto& [beyond, margin, free] :
+       std::vector<Case>{{{0, 0, {}}, 0.1 - little, true},
+                         {{0, 0, {}}, 0.1 + little, false},
+                         {{0, 0.05, {}}, 0.05 - little, true},  // `world` is not for the two links
+                         {{0, 0.15 - little, {}}, 0.05, true},
+                         {{0, 0.15 + little, {}}, 0.05, false},
+                         {{0.05 - little, 0, {}}, 0.05, true},  // `self` is
+                         {{0.05 + little, 0, {}}, 0.05, false},
+                         {{0, 0, {{{0, 2}, 0.2 + little}}}, 0, false},  // a single pair
+                         {{0, 0.3, {{{0, 2}, 0.2 - little}, {{1, 2}, 0.1}}}, 0, true},
+                         {{0.3, 0, {{{0, 1}, 0.05}}}, 0, true}}) {
+    Problem problem;
+    problem.source.name = "slides";
+    KinematicTree& tree = problem.model.tree;
+    tree.frames.resize(3);
+    for (std::size_t f = 1; f < 3; ++f) {
+      tree.frames[f].name = f == 1 ? "near" : "far";
+      tree.frames[f].joint = Frame::Joint::prismatic;
+      tree.frames[f].axis = Vec3::UnitX();
+      tree.frames[f].variable = f - 1;
+    }
+    problem.model.space = lines(2, 5);
+    problem.model.robots.resize(1);
+    problem.model.bodies = {{"near", 1, 0, {partShape("near", Sphere{0.5})}},
+                            {"far", 2, 0, {partShape("far", Sphere{0.5}, {1.1, 0, 0})}},
+                            {"post", 0, {}, {partShape("post", Sphere{0.3}, {0.5, -1, 0})}}};
+    problem.task.margin = margin;
+    problem.task.padding.beyond = beyond;
+    problem.task.tube = Configuration::Zero(2);
+    const Configuration from = Configuration::Zero(2), to = Eigen::Vector2d(1, 2);
+    EXPECT_EQ(Checker(problem).isProvedFree(from, to), free) << margin;
+    EXPECT_EQ(verifyPath(plainProblem(problem), {from, to}).verdict,
+              free ? PathVerdict::proved : PathVerdict::refuted)
+        << margin;
   }
 }
 

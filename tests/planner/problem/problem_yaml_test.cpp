@@ -47,6 +47,26 @@ trajectory: {smooth: length, deviation: 0.001, corner_deviation: 0.02, rate: 250
 seed: 18446744073709551615
 )";
 
+TEST_F(ProblemYaml, MarginsOfPairs) {
+  std::string text = everything;
+  const auto at = text.find("margin: ");
+  text.replace(at, text.find('\n', at) - at,
+               "margin: {self: 0.002, world: 0.02, pairs: [[wedge, rock, 0.005]]}");
+  Problem p = read(text);
+  EXPECT_EQ(p.task.margin, 0.002);
+  const auto total = [&](std::size_t a, std::size_t b, bool sameRobot) {
+    return p.task.margin + p.task.padding.of(a, b, sameRobot);
+  };
+  EXPECT_EQ(total(0, 0, true), 0.002);
+  EXPECT_NEAR(total(1, 2, false), 0.02 + 0.002, 1e-15);  // the stone's padding is 0.002
+  EXPECT_GE(total(1, 2, false), 0.02 + 0.002);
+  EXPECT_NEAR(total(0, 1, false), 0.005 + 0.03, 1e-15);  // with the pair's padding
+  EXPECT_NEAR(p.task.padding.largest(), 0.03 + 0.018, 1e-15);
+  setMargin(p, 0.01);  // replaces all of them
+  EXPECT_EQ(p.task.margin, 0.01);
+  EXPECT_EQ(p.task.padding.beyond.largest(), 0);
+}
+
 TEST_F(ProblemYaml, EveryKeyIsRead) {
   const Problem p = read(everything);
   EXPECT_FALSE(isPlanar(p));

@@ -4,6 +4,21 @@
 namespace corridor::test {
 namespace {
 
+TEST_F(ProblemFaults, Margin) {
+  EXPECT_EQ(with("margin: {}\n"), "problem.yaml:8: margin: self, world or pairs is needed");
+  EXPECT_EQ(with("margin: {self: -1}\n"), "problem.yaml:8: margin.self: must be 0 or more, not -1");
+  EXPECT_EQ(with("margin: {links: 1}\n"),
+            "problem.yaml:8: unknown key \"links\" in margin (known: self, world, pairs)");
+  EXPECT_EQ(with("margin: {pairs: [[rock, wedge, 1], [wedge, rock, 2]]}\n"),
+            "problem.yaml:8: margin.pairs: the pair has two margins");
+  EXPECT_EQ(
+      with("margin: {pairs: [[rock, rook, 1]]}\n"),
+      "problem.yaml:8: margin.pairs: there is no body \"rook\" (did you mean \"rock\"?) (known: "
+      "wedge, rock)");
+  EXPECT_EQ(with("margin: [1, 2]\n"), "problem.yaml:8: margin: a number is needed, not a list");
+  EXPECT_EQ(with("margin: {self: 0, world: 0.01}\nprefer: {clearance: 0.005}\n"), "no complaint");
+}
+
 TEST_F(ProblemFaults, Padding) {
   const auto known = " (known: wedge, rock)";
   EXPECT_EQ(with("padding: {bodies: {hand: 0.1}}\n"),
