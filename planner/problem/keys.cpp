@@ -97,13 +97,24 @@ KeysOfMaps makeProblemKeys() {
   return keys;
 }
 
+/// What robots of other programs have, and robots here have not.
+std::vector<UnsupportedKey> unsupportedMotions() {
+  std::vector<UnsupportedKey> all;
+  for (const char* key : {"motion_model", "drive", "differential_drive", "diff_drive",
+                          "nonholonomic", "steering", "turning_radius"})
+    all.push_back({key,
+                   "a base moves in any direction, so that it may slide; paths of differential "
+                   "drives and cars are not planned for"});
+  return all;
+}
+
 KeysOfMaps makeRobotKeys() {
   KeysOfMaps keys{
       {"",
        {{"format",           "name",       "urdf",   "srdf",      "xacro",   "packages", "visuals",
          "limits",           "collada_up", "group",  "joints",    "hold",    "states",   "allow",
          "never_in_contact", "rigid",      "shapes", "reference", "weights", "solid"},
-        {}}},
+        unsupportedMotions()}},
       {"weights", {{"joints", "rotation"}, {}}},
       {"never_in_contact", {{"margin", "beyond_limits", "digest", "pairs"}, {}}},
   };

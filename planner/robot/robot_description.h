@@ -39,6 +39,8 @@ struct JointModel {
   /// is not a single number.
   double velocity = std::numeric_limits<double>::infinity();
   std::optional<Mimic> mimic;
+  /// Where a file says that a planar joint can't move sideways, or "".
+  std::string whyNoSliding;
   bool passive = false;  ///< by the SRDF: without a motor; planned for only if `joints` names it
   int line = 0;          ///< in the URDF file
 };

@@ -171,6 +171,22 @@ void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotDescription& model)
   });
 }
 
+/// Reads the joint properties of MoveIt: whether a planar joint is a differential drive.
+void readJointProperties(XmlFile& file, SrdfNames& names, RobotDescription& model) {
+  forEach(*file.root(), "joint_property", [&](Element& element) {
+    const auto is = [&](const char* attribute, std::string_view value) {
+      const char* const text = element.Attribute(attribute);
+      return text && text == value;
+    };
+    if (!is("property_name", "motion_model") || !is("value", "diff_drive")) return;
+    UnknownNames unknown;  // other readers note names that are unknown
+    const auto joint = names.findJoint(element, "joint_name", "", unknown);
+    if (joint && model.joints[*joint].type == JointType::planar)
+      model.joints[*joint].whyNoSliding =
+          file.at(element.GetLineNum(), "<joint_property>: the motion_model is diff_drive");
+  });
+}
+
 /// Reads the file. Elements that can't be read become notes, not faults, because an SRDF only adds
 /// to the URDF: a group or state is needed only if the problem names it.
 void readAll(XmlFile& file, RobotDescription& model) {
@@ -194,6 +210,7 @@ void readAll(XmlFile& file, RobotDescription& model) {
          NoteWeight::coverage});
   SrdfNames names(file, model);
   readVirtualJoints(file, names, model);
+  readJointProperties(file, names, model);
   readSrdfGroups(file, names, model);
   UnknownNames passive;
   std::vector<std::string> passiveJoints;

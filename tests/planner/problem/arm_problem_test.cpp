@@ -369,6 +369,38 @@ TEST_F(ArmProblem, PlanarAndFloatingJoints) {
       "problem.yaml:5: goal.drive: outside of the bounds: x = 2 is not in [0, 1]");
 }
 
+/// A differential drive can't move sideways. Its paths are not planned for.
+TEST_F(ArmProblem, APlanarJointMaySlide) {
+  write("cart.urdf", "<robot name='cart'>\n<link name='world'/>\n" +
+                         link("cart", "<box size='0.5 0.5 0.2'/>", 0.1) +
+                         joint("drive", "planar", "world", "cart", "<axis xyz='0 0 1'/>") +
+                         "</robot>\n");
+  const auto property = [](const std::string& joint, const std::string& model) {
+    return "<robot name='cart'>\n<joint_property joint_name='" + joint +
+           "' property_name='motion_model' value='" + model + "'/>\n</robot>\n";
+  };
+  const std::string robot = "format: corridor-robot-1\nurdf: cart.urdf\nsrdf: cart.srdf\n",
+                    problem =
+                        "format: corridor-problem-1\nrobot: cart.yaml\nworld: {post: {sphere: "
+                        "0.1}}\nstart: {drive: {at: [1, 2]}}\ngoal: {drive: {at: [2, 2]}}\n"
+                        "bounds: {drive: {at: [[0, 0], [3, 3]]}}\n";
+  write("cart.yaml", robot);
+  for (const auto& text : {property("drive", "holonomic"), property("other", "diff_drive")}) {
+    write("cart.srdf", text);
+    EXPECT_THAT(textsOf(read(problem).source.notes),
+                Contains("planar joints move in any direction, so the base may slide; differential "
+                         "drives are not planned for: drive"));
+  }
+  write("cart.srdf", property("drive", "diff_drive"));
+  EXPECT_THAT(complaintOf(problem),
+              testing::HasSubstr("cart.srdf:2: <joint_property>: the motion_model is diff_drive; "
+                                 "paths of differential drives are not planned for: joint "
+                                 "\"drive\" would move in any direction"));
+  write("cart.yaml", "format: corridor-robot-1\nurdf: cart.urdf\ndrive: differential\n");
+  EXPECT_THAT(complaintOf(problem), testing::HasSubstr("cart.yaml:3: \"drive\" is not supported "
+                                                       "yet; a base moves in any direction"));
+}
+
 TEST_F(ArmProblem, APlanarJointMovesInThePlaneOfItsAxis) {
   write("wall.urdf",
         "<robot name='wall'>\n<link name='world'/>\n" + link("disc", "<sphere radius='0.1'/>", 0) +
