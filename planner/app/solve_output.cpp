@@ -46,12 +46,11 @@ std::string percent(double share) {
 std::string reasonOf(WhyOffTarget why) {
   switch (why) {
     case WhyOffTarget::detour:
-      return "; a path that keeps it everywhere was found, but it is longer than prefer.detour "
-             "allows";
+      return "; the ways found that keep it are longer than prefer.detour allows";
     case WhyOffTarget::notFound:
-      return "; no path that keeps it everywhere was found";
+      return "; no way that keeps it was found";
     case WhyOffTarget::time:
-      return "; the time ran out before one that keeps it everywhere was found";
+      return "; the time ran out before all searches for a way that keeps it";
     case WhyOffTarget::unknown:
       break;
   }
@@ -105,7 +104,8 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
   if (made.clearance)
     out.line(
         "trajectory clearance",
-        provedText(made.clearance->proved) + "; every pair keeps the preferred distance " +
+        provedText(made.clearance->proved) +
+            "; every pair keeps the preferred distance, as far as start and goal allow, " +
             (made.clearance->shareOnTarget == 1
                  ? "everywhere"
                  : "on " + percent(made.clearance->shareOnTarget) + " of the curves between rows"));
@@ -169,6 +169,8 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   out.line("certified", r.certified ? "yes" + except : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
   if (r.trajectory) printTrajectory(out, p, *r.trajectory, except);
+  if (r.trajectory && r.trajectory->proved() && r.clearance && !r.trajectory->clearance)
+    out.line("note", "the clearance is the path's; corridor verify reports the trajectory's");
   if (a.output) out.line("solution", *a.output);
   if (r.trajectory && r.trajectory->proved()) out.line("trajectory file", *a.trajectory);
   if (a.picture) out.line("picture", *a.picture);

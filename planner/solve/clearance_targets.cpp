@@ -142,8 +142,10 @@ ClearanceTargets::ClearanceTargets(const Checker& checker, double clearance,
 PairMargins ClearanceTargets::scaled(double factor) const {
   std::vector<double> lengths = targets_.all();
   const PairMargins* padding = checker_.options().pairMargins;
-  for (std::size_t k = 0; k < lengths.size(); ++k)
-    lengths[k] = std::max(factor * lengths[k], padding ? (*padding)[k] : 0);
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    const double least = padding ? (*padding)[k] : 0;
+    if (lengths[k] > least) lengths[k] = std::max(factor * lengths[k], least);
+  }
   return PairMargins(std::move(lengths));
 }
 

@@ -12,8 +12,8 @@ namespace corridor {
 /// Why edges of a path miss a clearance target.
 enum class WhyOffTarget {
   unknown,
-  detour,    ///< a path that keeps all targets was found, but it is longer than allowed
-  notFound,  ///< no search found a path that keeps all targets
+  detour,    ///< edges that keep all targets were found, but make the path longer than allowed
+  notFound,  ///< no search found edges that keep all targets
   time       ///< the time ran out before all searches were made
 };
 /// Returns "", "detour", "not found" or "time".
@@ -51,7 +51,8 @@ class ClearanceTargets {
   }
   /// The reserve, as a fraction of the targets.
   static constexpr double kReserve = 0.02;
-  /// Returns the targets, multiplied by a factor, but not below the paddings.
+  /// Returns the targets, multiplied by a factor, but not below the paddings. A target that is no
+  /// more than the padding stays as it is.
   PairMargins scaled(double factor) const;
   /// The pair with the smallest share on an edge, and the time at which it has this share.
   struct Worst {

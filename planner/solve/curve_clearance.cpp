@@ -7,9 +7,15 @@
 namespace corridor {
 namespace {
 
-constexpr double kFractions[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};
-/// Each further clearance that is tried for a curve is this fraction of the one before.
-constexpr double kNextOfCurve = 0.85;
+constexpr double kFractions[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05, 0};
+/// Pieces keep this part of the path's clearance, at least.
+constexpr double kFloor = 0.98;
+/// Each further clearance that is tried for a curve is this fraction of the one before: at first,
+/// and after kFine tries.
+constexpr double kNextOfCurve = 0.97, kLaterOfCurve = 0.85;
+constexpr int kFine = 3;
+/// A curve with less than this part of the path's clearance loses clearance.
+constexpr double kLost = 0.94;
 constexpr int kTriesOfCurve = 20;
 
 }  // namespace
@@ -18,7 +24,10 @@ CurveClearance::CurveClearance(const Checker& checker, const ClearanceTargets& t
     : checker_(checker), targets_(targets), most_(most) {
   for (const double fraction : kFractions) {
     ofEdges_.push_back(targets.scaled((1 + ClearanceTargets::kReserve) * fraction));
-    ofPieces_.push_back(targets.scaled((1 + ClearanceTargets::kReserve / 2) * fraction));
+    std::vector<double> lengths =
+        targets.scaled((1 + ClearanceTargets::kReserve / 2) * fraction).all();
+    for (double& length : lengths) length = std::max(length, kFloor * most);
+    ofPieces_.emplace_back(std::move(lengths));
   }
 }
 
@@ -31,10 +40,10 @@ double CurveClearance::fractionKept(const Configuration& from, const Configurati
 
 bool CurveClearance::isKept(const CurvePiece& piece, double fraction) const {
   const auto known = std::ranges::find(kFractions, fraction);
-  const PairMargins* margins = known == std::end(kFractions)
-                                   ? nullptr
-                                   : &ofPieces_[static_cast<std::size_t>(known - kFractions)];
-  return checker_.certifyCurve(piece, false, margins).verdict == MotionVerdict::free;
+  const PairMargins& margins = known == std::end(kFractions)
+                                   ? ofPieces_.back()
+                                   : ofPieces_[static_cast<std::size_t>(known - kFractions)];
+  return checker_.certifyCurve(piece, false, &margins).verdict == MotionVerdict::free;
 }
 
 bool CurveClearance::keepsTargets(const CurvePiece& piece) const {
@@ -57,9 +66,11 @@ CurveProof CurveClearance::prove(const std::vector<CurvePiece>& pieces,
             checker_.certifyCurve(pieces[piece], false, &margins).verdict == MotionVerdict::free))
       ++piece;
     if (piece == pieces.size()) break;
-    tried *= kNextOfCurve;
+    tried *= n < kFine ? kNextOfCurve : kLaterOfCurve;
   }
-  proof.proved = roundedDownTo3Digits(piece == pieces.size() ? tried : least);
+  const double proved = piece == pieces.size() ? tried : least;
+  proof.isLess = proved < kLost * most_;
+  proof.proved = roundedDownTo3Digits(proved);
   return proof;
 }
 

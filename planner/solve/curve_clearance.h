@@ -15,6 +15,8 @@ struct CurveProof {
   double proved = 0;
   /// A lower bound of the fraction of the pieces on which every pair is proved to keep its target.
   double shareOnTarget = 0;
+  bool isLess =
+      false;  ///< whether `proved` is less than that of the path, by more than a few percent
 };
 
 /// The clearance targets of a path, for curves that replace parts of it. An edge keeps a *fraction*
@@ -22,14 +24,14 @@ struct CurveProof {
 class CurveClearance {
  public:
   /// Both must outlive the object.
-  /// @param most the clearance that is tried first for a whole curve, metres: that of the path
+  /// @param most the proved clearance of the path, metres; the first that is tried for a curve
   CurveClearance(const Checker& checker, const ClearanceTargets& targets, double most);
 
   /// Returns a fraction of the targets that every pair is proved to keep on the whole edge, with
   /// the reserve of `ClearanceTargets::areKept`: 1, or one of a few smaller ones, or 0.
   double fractionKept(const Configuration& from, const Configuration& to) const;
-  /// Returns whether a piece is proved free, and every pair to keep a fraction of its target and
-  /// half of the reserve. @param fraction as `fractionKept` returns it
+  /// Returns whether every pair is proved to keep a fraction of its target and half of the reserve
+  /// on a piece, and nearly the clearance of the path. @param fraction as `fractionKept` returns it
   bool isKept(const CurvePiece& piece, double fraction) const;
 
   /// Proves whether every pair keeps its target on a piece, without a reserve.

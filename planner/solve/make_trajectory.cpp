@@ -150,7 +150,8 @@ void prove(const Checker& checker, const Wanted& wanted, MadeTrajectory& made) {
   made.proof.verdict = MotionVerdict::free;
   if (!wanted.clearance) return;
   made.clearance = wanted.clearance->prove(pieces, kept);
-  made.losesClearance = made.clearance->shareOnTarget < 1 && wanted.everywhere();
+  made.losesClearance =
+      made.clearance->isLess || (made.clearance->shareOnTarget < 1 && wanted.everywhere());
 }
 
 /// Makes the text of rows, and proves the curve that the text describes.
@@ -249,7 +250,8 @@ MadeTrajectory provedAlong(const Problem& problem, const Checker& checker, const
   for (int i = 0; i < attempts && made.fault.empty(); ++i) {
     makeText(problem, checker, wanted, curve, limits, kind, deviation, made);
     if (made.isGood()) return made;
-    if (made.proved()) proved = made;
+    if (made.proved() && !(proved && keepsLimits(proved->ratios) && !keepsLimits(made.ratios)))
+      proved = made;
     deviation /= 4;
     // If the rows before rounding keep the limits, a message can exceed them only by the rounding
     // of its times.

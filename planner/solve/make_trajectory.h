@@ -35,7 +35,8 @@ struct MadeTrajectory {
   std::size_t failedPiece = 0;  ///< if there is no proof: index into curve.pieces
   /// The clearance of `curve`; set if it is proved, and `makeTrajectory` got targets.
   std::optional<CurveProof> clearance;
-  /// Whether the curve misses targets, although the path keeps all.
+  /// Whether the curve misses targets, although the path keeps all; or its proved clearance is less
+  /// than the path's.
   bool losesClearance = false;
   std::string fault;  ///< why there is no trajectory, one line; or ""
   /// Why the robot stops at all corners although some were rounded, one line; or "".

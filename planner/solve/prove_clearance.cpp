@@ -18,6 +18,8 @@ constexpr double kTried = 0.93;
 /// fraction of the one before.
 constexpr double kNextTry = 0.8;
 constexpr int kMostTries = 20;
+/// After such a try, this often a clearance between the last two is tried.
+constexpr int kRaises = 2;
 
 /// Where a path comes closest, as far as known.
 struct Closest {
@@ -40,26 +42,38 @@ struct Closest {
 /// @param most the first clearance that is tried.
 double provedClearance(const Checker& checker, const ClearanceTargets& targets, const Path& path,
                        double most, double least, Closest& closest) {
-  double tried = most;
-  // All edges before this one are proved to keep the clearance that is tried. A path of one state
-  // has one edge, of length 0.
   const std::size_t edges = std::max<std::size_t>(path.size() - 1, 1);
-  std::size_t edge = 0;
-  for (int n = 0; n < kMostTries && tried > least; ++n) {
-    const PairMargins margins(std::vector(checker.scene().motionPairs().size(), tried));
-    MotionResult failed;
+  // Proves edges from `edge` on. Returns whether all are proved; if not, `edge` is the first that
+  // is not, and `failed` the answer.
+  MotionResult failed;
+  const auto proves = [&](double clearance, std::size_t& edge) {
+    const PairMargins margins(std::vector(checker.scene().motionPairs().size(), clearance));
     for (; edge < edges; ++edge) {
-      const Configuration &from = path[edge], &to = path[std::min(edge + 1, path.size() - 1)];
-      failed = checker.certifyEdge(from, to, {.margins = &margins});
-      if (failed.verdict == MotionVerdict::free) continue;
-      const bool isCloser =
-          failed.time >= 0 && closest.note(edge, targets.closestNear(from, to, failed.time));
-      tried = isCloser ? std::min(tried, kTried * closest.distance) : kNextTry * tried;
-      break;
+      // A path of one state has one edge, of length 0.
+      failed = checker.certifyEdge(path[edge], path[std::min(edge + 1, path.size() - 1)],
+                                   {.margins = &margins});
+      if (failed.verdict != MotionVerdict::free) return false;
     }
-    if (edge >= edges) return tried;
+    return true;
+  };
+  double tried = most, refused = 0;
+  // All edges before this one are proved to keep the clearance that is tried.
+  std::size_t edge = 0;
+  int n = 0;
+  for (; n < kMostTries && tried > least && !proves(tried, edge); ++n) {
+    const Configuration &from = path[edge], &to = path[std::min(edge + 1, path.size() - 1)];
+    const bool isCloser =
+        failed.time >= 0 && closest.note(edge, targets.closestNear(from, to, failed.time));
+    refused = isCloser ? 0 : tried;
+    tried = isCloser ? std::min(tried, kTried * closest.distance) : kNextTry * tried;
   }
-  return 0;
+  if (n == kMostTries || !(tried > least)) return 0;
+  for (int i = 0; i < kRaises && refused > 0; ++i) {
+    const double between = (tried + refused) / 2;
+    std::size_t first = 0;
+    (proves(between, first) ? tried : refused) = between;
+  }
+  return tried;
 }
 
 /// Returns a lower bound of the fraction of an edge on which the targets are kept.

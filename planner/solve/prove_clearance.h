@@ -18,8 +18,8 @@ struct PathClearance {
   /// The smallest distance found on the path, metres, and where it was found: the pair of bodies,
   /// and the time on the edge from state `edge` (counted from 0) to the next. If `proved` is above
   /// 0, the path's clearance is at least 0.93 times this distance, unless the proof ran into the
-  /// tolerance. If no distance below the preferred clearance was found, `smallest` is infinite, and
-  /// `a` and `b` are empty.
+  /// tolerance or the tube. If no distance below the preferred clearance was found, `smallest` is
+  /// infinite, and `a` and `b` are empty.
   double smallest = 0;
   std::string a, b;
   std::size_t edge = 0;

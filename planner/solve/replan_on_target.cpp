@@ -31,6 +31,9 @@ constexpr double kRange = 0.25, kLeastRange = 0.2;
 constexpr int kSearches = 3;
 /// Edges that each search may test at first. If none succeeds, it is multiplied by four.
 constexpr std::uint64_t kEdges = 1000;
+/// Rounds of a search that count as an edge. (In many, both ends of the edge are out of the
+/// ellipse.)
+constexpr std::uint64_t kRoundsOfEdge = 100;
 
 /// The states through which a path from one state to another may be short enough.
 class Ellipse {
@@ -88,8 +91,9 @@ class Replanner {
         limits_(limits) {}
 
   ReplannedPath run(Path path) {
+    WhyOffTarget why = WhyOffTarget::unknown;
     // Where the search failed, the edges stay; the next ones are behind them.
-    for (std::size_t edge = 0; edge + 1 < path.size() && !limits_.stop();) {
+    for (std::size_t edge = 0; edge + 1 < path.size() && !isStopped_;) {
       if (isKept(path, edge)) {
         ++edge;
         continue;
@@ -98,12 +102,16 @@ class Replanner {
       while (first > 0 && !isOnTarget(path[first])) --first;
       while (last + 1 < path.size() && !(isOnTarget(path[last]) && isKept(path, last))) ++last;
       const std::size_t behind = path.size() - last;
-      edge = replaceWider(path, first, last) ? 0 : path.size() - behind;
+      foundLonger_ = false;
+      if (replaceWider(path, first, last)) {
+        edge = 0;
+        continue;
+      }
+      if (foundLonger_ || why == WhyOffTarget::unknown)
+        why = foundLonger_ ? WhyOffTarget::detour : WhyOffTarget::notFound;
+      edge = path.size() - behind;
     }
-    const WhyOffTarget why = limits_.stop() ? WhyOffTarget::time
-                             : foundLonger_ ? WhyOffTarget::detour
-                                            : WhyOffTarget::notFound;
-    return {std::move(path), why};
+    return {std::move(path), isStopped_ ? WhyOffTarget::time : why};
   }
 
  private:
@@ -117,9 +125,12 @@ class Replanner {
     const std::size_t end = path.size() - 1;
     for (std::uint64_t edges = kEdges;; edges *= 4)
       for (std::size_t a = first, b = last, wider = 1;; wider *= 2) {
+        // An end of the path may miss a target: because of the tube, or a padding.
+        if (!isOnTarget(path[a]) || !isOnTarget(path[b])) return false;
         for (int n = 0; n < kSearches; ++n) {
-          if (tested_ >= limits_.mostEdges || limits_.stop()) return false;
-          if (replace(path, a, b, edges)) return true;
+          if (tested_ >= limits_.mostEdges) return false;
+          if (isStopped_ = isStopped_ || limits_.stop(); isStopped_) return false;
+          if (replace(path, a, b, std::min(edges, limits_.mostEdges - tested_))) return true;
         }
         if (a == 0 && b == end) break;
         a -= std::min(a, wider);
@@ -172,10 +183,11 @@ class Replanner {
     space_->write(to, goal.get());
     definition->setStartAndGoalStates(start, goal);
     og::RRTConnect planner(si);
-    planner.setRange(std::max(kRange * configurations_.distance(from, to), kLeastRange));
+    planner.setRange(std::min(std::max(kRange * configurations_.distance(from, to), kLeastRange),
+                              limits_.range));
     planner.setProblemDefinition(definition);
     planner.setup();
-    std::uint64_t rounds = 0;  // in many of them, both ends of the edge are out of the ellipse
+    std::uint64_t rounds = 0;
     planner.solve(ob::PlannerTerminationCondition(
         [&] { return validator->tested() >= edges || ++rounds > 100 * edges || limits_.stop(); }));
     // At least one, so that the searches end.
@@ -195,7 +207,7 @@ class Replanner {
   EdgeMemory &free_, &onTarget_;
   const ReplanLimits& limits_;
   std::uint64_t tested_ = 0;
-  bool foundLonger_ = false;
+  bool foundLonger_ = false, isStopped_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -16,6 +17,7 @@ class ProblemStateSpace;
 struct ReplanLimits {
   double longest = 0;           ///< the longest path, in the space's distance
   std::uint64_t mostEdges = 0;  ///< edges after which no further search begins
+  double range = HUGE_VAL;      ///< the longest edge of the searches, in the space's distance
   std::function<bool()> stop;   ///< ends searching when it returns true
 };
 
@@ -26,8 +28,8 @@ struct ReplannedPath {
 
 /// Returns the path, in which edges that miss a clearance target are replaced by edges that keep
 /// all targets, where a search finds them. Each stretch of such edges is replaced from the last
-/// state before it to the first state behind it that keep the targets. If that fails, the whole
-/// path is searched for.
+/// state before it to the first state behind it that keep the targets. If that fails, wider and
+/// wider stretches are searched for, up to the whole path.
 ///
 /// The searches are OMPL's RRTConnect (Kuffner, LaValle 2000), on edges that keep all targets, and
 /// among states through which the path is not longer than allowed (Gammell, Srinivasa, Barfoot
@@ -36,7 +38,7 @@ struct ReplannedPath {
 /// The result depends on the arguments and on OMPL's random numbers only, as long as `stop` returns
 /// false. The first and the last state stay.
 /// @param free, onTarget remember which edges are free, and which keep all targets.
-/// @pre the path is not empty; its edges are free; its first and last state keep all targets.
+/// @pre the path is not empty, and its edges are free.
 ReplannedPath replannedOnTarget(const std::shared_ptr<ProblemStateSpace>& space,
                                 const ClearanceTargets& targets, const Path& path, EdgeMemory& free,
                                 EdgeMemory& onTarget, const ReplanLimits& limits);

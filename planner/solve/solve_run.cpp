@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -46,7 +47,7 @@ constexpr double kProgressPeriod = 0.1;  // s
 constexpr double kSmallClearance = 0.005, kClearanceDivisor = 8;
 /// The number of edges that are tested to replan stretches with too little clearance: kReplanEdges,
 /// and kReplanShare times those of the search.
-constexpr std::uint64_t kReplanEdges = 5000, kReplanShare = 5;
+constexpr std::uint64_t kReplanEdges = 2500, kReplanShare = 5;
 
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
 /// directly, and throws for spaces in which it can't. For such a space this class samples the whole
@@ -403,8 +404,11 @@ Path SolveRun::withClearance(const Path& path, const std::function<bool()>& stop
     clear = corridor::withClearance(*targets_, space, clear, longest, *edges_, *onTarget_, stop);
     if (part >= clearance) break;
   }
+  const auto& params = problem_.settings.planner.params;
+  const auto own = params.find("range");  // OMPL has read it as a number; 0: it chooses one
+  const double range = own == params.end() ? 0 : std::strtod(own->second.c_str(), nullptr);
   const ReplanLimits limits{longest, kReplanEdges + kReplanShare * validator_->checkedMotions(),
-                            stop};
+                            range > 0 ? range : HUGE_VAL, stop};
   ReplannedPath replanned =
       replannedOnTarget(space_, *targets_, clear, *edges_, *onTarget_, limits);
   whyOffTarget_ = replanned.why;
@@ -428,6 +432,8 @@ void SolveRun::finish() {
     report_.outcome = SolveOutcome::solved;
     report_.certified = !discrete();
     report_.version = static_cast<int>(i);
+    if (report_.clearance && i + 1 < versions.size())  // the reason was that of another path
+      report_.clearance->why = WhyOffTarget::unknown;
     report_.length = lengthOf(problem_.model.space, states);
     report_.path = std::move(states);
     if (options_.noteLeftOut) addAll(notesOnJointsToHold(problem_, report_.path), report_.notes);

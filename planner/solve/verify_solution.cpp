@@ -317,6 +317,7 @@ void proveClaim(PathProblem plain, const Solution& solution, PathReport& report)
   const PathReport claimed = verifyPath(plain, solution.path);
   report.distanceQueries += claimed.distanceQueries;
   if (claimed.verdict == PathVerdict::proved) report.provenClearance = claimed.provenClearance;
+  report.smallestDistanceMet = std::min(report.smallestDistanceMet, claimed.smallestDistanceMet);
 }
 
 }  // namespace

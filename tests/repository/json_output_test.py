@@ -174,6 +174,20 @@ padding: {bodies: {post: 0.001}, pairs: [[upper, table, 0.002]]}
 allow: [[lid, table]]
 limits: {}
 """,
+    "margins.yaml": """format: corridor-problem-1
+robot: robot.yaml
+world: {post: {sphere: 0.1, at: [0, 1.5, 0]}}
+start: {shoulder: 0, elbow: 0}
+goal: {shoulder: 0.5, elbow: 0}
+margin: {self: 0, world: 0.01, pairs: [[upper, post, 0.02]]}
+""",
+    "short.yaml": """format: corridor-problem-1
+robot: robot.yaml
+world: {post: {sphere: 0.1, at: [0, 1.5, 0]}}
+start: {shoulder: 0, elbow: 0}
+goal: {shoulder: 2.8, elbow: 0.5}
+prefer: {clearance: 0.3, detour: 0}
+""",
     "through.csv": "time, shoulder, elbow\n0, 0, 0\n1, 2.8, 0\n",
     "states.txt": "0 0\n9 0\n1.5707 0\n",
     "turned.txt": "-2.2 0.8 1e17 0 -0.7 2.2 -0.5 -1.57 0\n",
@@ -198,6 +212,7 @@ def outputs(folder):
     yield report("solve", "problem.yaml", "-o", "cube.solution.yaml")
     yield report("solve", "arm.yaml", "--trajectory", "arm.csv", "-o", "arm.solution.yaml")
     yield report("solve", ROOT / "problems/two_arms")
+    yield report("solve", "short.yaml")
     yield report("solve", "hopeless.yaml")
     yield report("solve", "stuck.yaml", "--trajectory", "none.csv")
     yield report("solve", "problem.yaml", "faulty.yaml", statuses=(2,))
@@ -222,6 +237,7 @@ def outputs(folder):
     yield report("inspect", "problem.yaml")
     yield report("inspect", "hopeless.yaml")
     yield report("inspect", "arm.yaml")
+    yield report("inspect", "margins.yaml")
     yield report("inspect", ROOT / "problems/polygon_maze")
     yield report("pose", "robot.yaml")
     yield report("benchmark", "arm.yaml", "--variants", "certified,discrete:0.1", "--runs", 1, "--trajectories",

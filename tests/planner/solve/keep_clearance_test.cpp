@@ -250,7 +250,7 @@ struct Fence : Mover {
   }
   ReplannedPath replanned(double detour, const std::function<bool()>& stop = never) {
     return replannedOnTarget(std::make_shared<ProblemStateSpace>(checker.space()), targets, path,
-                             edges, onTarget, {longest(detour), 5000, stop});
+                             edges, onTarget, {longest(detour), 5000, HUGE_VAL, stop});
   }
   std::vector<Vec3> posts;
 };
@@ -266,6 +266,39 @@ TEST(ReplannedOnTarget, TakesTheGapWithRoom) {
   EXPECT_EQ(replanned.path.back(), fence.path.back());
   for (std::size_t i = 1; i < replanned.path.size(); ++i)
     EXPECT_TRUE(fence.targets.areKept(replanned.path[i - 1], replanned.path[i])) << i;
+}
+
+/// With a tube, the start does not keep its target, which is 70 % of its distance. No search can
+/// begin there: OMPL would wait for another start until the time is over.
+TEST(ReplannedOnTarget, DoesNotSearchFromAnEndThatMissesATarget) {
+  Problem problem = ballAmong({{-4, 0.9, 0}, {0, -0.85, 0}});  // 0.1 and 0.05 m away
+  problem.task.tube = Eigen::Vector3d(0.05, 0.05, 0);
+  const Checker checker(problem);
+  const Path path{poseOf(Rigid::SE2, -4, 0), poseOf(Rigid::SE2, 4, 0)};
+  const ClearanceTargets targets(checker, 0.1, path.front(), path.back());
+  ASSERT_FALSE(targets.areKept(path.front(), path.front()));
+  EdgeMemory edges([&](const auto&a, const auto&b) { return checker.isProvedFree(a, b); }),
+      onTarget([&](const auto&a, const auto&b) { return targets.areKept(a, b); });
+  int calls = 0;
+  const ReplannedPath replanned =
+      replannedOnTarget(std::make_shared<ProblemStateSpace>(checker.space()), targets, path, edges,
+                        onTarget, {20, 5000, HUGE_VAL, [&] {
+                                     ++calls;
+                                     return false;
+                                   }});
+  EXPECT_EQ(replanned.path, path);
+  EXPECT_EQ(replanned.why, WhyOffTarget::notFound);
+  EXPECT_LT(calls, 10);
+}
+
+TEST(ClearanceTargets, ReserveNothingBeyondAPadding) {
+  Problem problem = ballAmong({{-4, 0.9, 0}});
+  problem.task.padding.bodies[1] = 0.099;  // of 0.1
+  const Checker checker(problem);
+  const Configuration start = poseOf(Rigid::SE2, -4, 0), goal = poseOf(Rigid::SE2, 4, 0);
+  const ClearanceTargets targets(checker, 0.2, start, goal);
+  EXPECT_EQ(targets.all()[0], targets.scaled(1.02).all()[0]);
+  EXPECT_TRUE(targets.areKept(start, start));
 }
 
 TEST(ReplannedOnTarget, SaysWhyNot) {

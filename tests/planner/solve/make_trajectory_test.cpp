@@ -104,6 +104,11 @@ TEST_F(MakeTrajectory, KeepsAFractionWhereThePathDoes) {
   EXPECT_LT(made.clearance->shareOnTarget, 1);
   EXPECT_GT(made.clearance->shareOnTarget, 0);
   EXPECT_GE(leastDistanceFromPost(made.curve.pieces), 0.4 * 0.19);
+  // And it keeps nearly the path's clearance, if that is more.
+  const CurveClearance ofPath(checker, targets, 0.099);
+  const MadeTrajectory nearPath = makeTrajectory(
+      problem, checker, path, TrajectoryFileKind::csv, [] { return false; }, &ofPath);
+  EXPECT_GE(leastDistanceFromPost(nearPath.curve.pieces), 0.97 * 0.099);
   EXPECT_LE(made.clearance->proved, leastDistanceFromPost(made.curve.pieces));
 }
 
