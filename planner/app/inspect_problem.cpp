@@ -108,7 +108,8 @@ class ProblemReport {
     json_["margin_m"] = problem_.task.margin;
     json_["tube"] = tubeJson(problem_.model.space, problem_.task.tube);
     out_.line("tolerance", rounded(checker_.options().tolerance) + " m");
-    out_.line("margin", rounded(problem_.task.margin) + " m");
+    if (problem_.task.padding.beyond.largest() == 0)
+      out_.line("margin", rounded(problem_.task.margin) + " m");
     reportPadding();
     out_.line("tube", tubeText(problem_.model.space, problem_.task.tube));
   }
@@ -118,14 +119,17 @@ class ProblemReport {
     const auto nameOf = [&](std::size_t body) { return problem_.model.bodies[body].name; };
     const MarginsBeyond& beyond = padding.beyond;
     if (beyond.largest() > 0) {
-      const double least = problem_.task.margin;
-      json_["margins"] = {{"self_m", least + beyond.self}, {"world_m", least + beyond.world}};
-      out_.line("margin", rounded(least + beyond.self) + " m between links of a robot, " +
-                              rounded(least + beyond.world) + " m between other bodies");
+      // What is beyond the margin was rounded up.
+      const auto total = [&](double metres) {
+        return std::round(1e12 * (problem_.task.margin + metres)) / 1e12;
+      };
+      json_["margins"] = {{"self_m", total(beyond.self)}, {"world_m", total(beyond.world)}};
+      out_.line("margin", rounded(total(beyond.self)) + " m between links of a robot, " +
+                              rounded(total(beyond.world)) + " m between other bodies");
       for (const auto& [pair, metres] : beyond.pairs) {
         const std::string a = nameOf(pair.first), b = nameOf(pair.second);
-        json_["margins"]["pairs"].push_back({a, b, least + metres});
-        out_.line("margin", a + " ~ " + b + " " + rounded(least + metres) + " m");
+        json_["margins"]["pairs"].push_back({a, b, total(metres)});
+        out_.line("margin", a + " ~ " + b + " " + rounded(total(metres)) + " m");
       }
     }
     for (const auto& [body, metres] : padding.bodies) {

@@ -66,13 +66,20 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
   if (!c.a.empty())
     lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
-  lines.push_back("every pair keeps the preferred distance, as far as start and goal allow, on " +
-                  percent(c.shareOnTarget) + " of the length" + reasonOf(c.why));
+  lines.push_back(
+      "every pair keeps the preferred distance, as far as start and goal allow, on " +
+      percent(c.shareOnTarget) + " of the length" +
+      (std::isfinite(c.smallestAtEnds)
+           ? " (70 % of a pair's distance there, " + rounded(1e3 * c.leastTarget) + " mm or more)"
+           : "") +
+      reasonOf(c.why));
   return lines;
 }
 
 ordered_json clearanceJson(const PathClearance& c) {
-  ordered_json j = {{"proved_m", c.proved}, {"share_on_target", c.shareOnTarget}};
+  ordered_json j = {{"proved_m", c.proved},
+                    {"share_on_target", c.shareOnTarget},
+                    {"least_target_m", c.leastTarget}};
   if (c.why != WhyOffTarget::unknown) j["why_off_target"] = nameOf(c.why);
   if (std::isfinite(c.smallestAtEnds)) j["ends_m"] = c.smallestAtEnds;
   if (c.a.empty()) return j;
@@ -102,13 +109,12 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
                                std::to_string(made.failedPiece + 1),
            made.proved() ? Tone::good : Tone::bad);
   if (made.clearance)
-    out.line(
-        "trajectory clearance",
-        provedText(made.clearance->proved) +
-            "; every pair keeps the preferred distance, as far as start and goal allow, " +
-            (made.clearance->shareOnTarget == 1
-                 ? "everywhere"
-                 : "on " + percent(made.clearance->shareOnTarget) + " of the curves between rows"));
+    out.line("trajectory clearance",
+             provedText(made.clearance->proved) +
+                 "; every pair keeps the preferred distance, as far as start and goal allow, " +
+                 (made.clearance->shareOnTarget == 1
+                      ? "everywhere"
+                      : "on " + percent(made.clearance->shareOnTarget) + " of the time"));
   out.line("limits", limitsText(p, made.ratios),
            keepsLimits(made.ratios) ? Tone::plain : Tone::bad);
   for (const std::string& note : p.task.limits.notes) out.line("note", note);

@@ -193,9 +193,10 @@ void print(const VerifyReport& r, const Problem& problem, const LeftOut& leftOut
   if (r.margin > 0 || beyond > 0)
     out.line("margin",
              rounded(r.margin) + (beyond > 0 ? " to " + rounded(r.margin + beyond) : "") + " m");
-  if (!problem.task.padding.empty())
-    out.line("padding",
-             "up to " + rounded(problem.task.padding.largest()) + " m, as in the problem");
+  Padding padding = problem.task.padding;
+  padding.beyond = {};
+  if (!padding.empty())
+    out.line("padding", "up to " + rounded(padding.largest()) + " m, as in the problem");
   out.line("tube", tubeText(problem.model.space, r.tube));
   out.line(r.between ? "bounds" : "start, goal, bounds", r.violations.empty() ? "hold" : "violated",
            r.violations.empty() ? Tone::plain : Tone::bad);

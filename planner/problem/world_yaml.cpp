@@ -258,6 +258,10 @@ Padding readPadding(const YamlMap& file, const Model& model) {
 
 void readMargin(const YamlMap& file, const Model& model, Task& task) {
   const YamlValue* value = file.find("margin");
+  if (value && value->kind == YamlValue::Kind::List) {
+    file.fault("margin", "a number or a map {self: …, world: …} is needed, not a list");
+    return;
+  }
   if (!value || value->kind != YamlValue::Kind::Map) {
     task.margin = file.number("margin", Range::NotNegative).value_or(task.margin);
     return;

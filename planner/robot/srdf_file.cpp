@@ -173,18 +173,22 @@ void readVirtualJoints(XmlFile& file, SrdfNames& names, RobotDescription& model)
 
 /// Reads the joint properties of MoveIt: whether a planar joint is a differential drive.
 void readJointProperties(XmlFile& file, SrdfNames& names, RobotDescription& model) {
+  UnknownNames unknown;
   forEach(*file.root(), "joint_property", [&](Element& element) {
     const auto is = [&](const char* attribute, std::string_view value) {
       const char* const text = element.Attribute(attribute);
       return text && text == value;
     };
-    if (!is("property_name", "motion_model") || !is("value", "diff_drive")) return;
-    UnknownNames unknown;  // other readers note names that are unknown
+    if (!is("property_name", "motion_model") || is("value", "holonomic")) return;
     const auto joint = names.findJoint(element, "joint_name", "", unknown);
+    const char* const value = element.Attribute("value");
     if (joint && model.joints[*joint].type == JointType::planar)
       model.joints[*joint].whyNoSliding =
-          file.at(element.GetLineNum(), "<joint_property>: the motion_model is diff_drive");
+          file.at(element.GetLineNum(), std::string("<joint_property>: the motion_model is ") +
+                                            (value ? quotedWord(value) : "not given"));
   });
+  names.note(unknown, "joint_property is of no joint of the URDF: ",
+             "joint_property is of no joints of the URDF: ", model.notes);
 }
 
 /// Reads the file. Elements that can't be read become notes, not faults, because an SRDF only adds

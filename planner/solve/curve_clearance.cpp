@@ -50,11 +50,15 @@ bool CurveClearance::keepsTargets(const CurvePiece& piece) const {
   return checker_.certifyCurve(piece, false, &targets_.all()).verdict == MotionVerdict::free;
 }
 
-CurveProof CurveClearance::prove(const std::vector<CurvePiece>& pieces,
-                                 const std::vector<char>& kept) const {
+CurveProof CurveClearance::prove(const Curve& curve, const std::vector<char>& kept) const {
+  const std::vector<CurvePiece>& pieces = curve.pieces;
   const auto onTarget = static_cast<std::size_t>(std::ranges::count(kept, 1));
+  double time = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    time += kept[k] ? curve.knots[k + 1] - curve.knots[k] : 0;
   CurveProof proof;
-  proof.shareOnTarget = static_cast<double>(onTarget) / static_cast<double>(pieces.size());
+  proof.shareOnTarget =
+      onTarget == pieces.size() ? 1 : time / (curve.knots.back() - curve.knots.front());
   const double least = onTarget == pieces.size() ? targets_.least() : 0;
   double tried = std::max(most_, least);
   // All pieces before this one are proved to keep the clearance that is tried.

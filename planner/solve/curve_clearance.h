@@ -13,7 +13,7 @@ struct CurveProof {
   /// and errors of the pieces included. Rounded down to three significant digits; 0: none is
   /// proved.
   double proved = 0;
-  /// A lower bound of the fraction of the pieces on which every pair is proved to keep its target.
+  /// A lower bound of the fraction of the time in which every pair is proved to keep its target.
   double shareOnTarget = 0;
   bool isLess =
       false;  ///< whether `proved` is less than that of the path, by more than a few percent
@@ -37,7 +37,7 @@ class CurveClearance {
   /// Proves whether every pair keeps its target on a piece, without a reserve.
   bool keepsTargets(const CurvePiece& piece) const;
   /// Proves a clearance of a whole curve. @param kept for each piece, whether it keeps the targets.
-  CurveProof prove(const std::vector<CurvePiece>& pieces, const std::vector<char>& kept) const;
+  CurveProof prove(const Curve& curve, const std::vector<char>& kept) const;
 
  private:
   const Checker& checker_;

@@ -149,7 +149,7 @@ void prove(const Checker& checker, const Wanted& wanted, MadeTrajectory& made) {
   }
   made.proof.verdict = MotionVerdict::free;
   if (!wanted.clearance) return;
-  made.clearance = wanted.clearance->prove(pieces, kept);
+  made.clearance = wanted.clearance->prove(made.curve, kept);
   made.losesClearance =
       made.clearance->isLess || (made.clearance->shareOnTarget < 1 && wanted.everywhere());
 }

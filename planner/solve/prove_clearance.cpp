@@ -111,6 +111,7 @@ PathClearance proveClearance(const Checker& checker, const ClearanceTargets& tar
   const ConfigurationSpace& space = checker.space();
   PathClearance result;
   result.smallestAtEnds = targets.smallestAtEnds();
+  result.leastTarget = targets.least();
   Closest closest;
   double length = 0, kept = 0;
   bool all = path.size() > 1;

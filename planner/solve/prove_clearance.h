@@ -24,6 +24,7 @@ struct PathClearance {
   std::string a, b;
   std::size_t edge = 0;
   double t = 0;
+  double leastTarget = 0;  ///< the smallest target of a pair, metres
   /// Why the path misses targets, if `shareOnTarget` is below 1.
   WhyOffTarget why = WhyOffTarget::unknown;
   /// The smallest distance at the start and at the goal, metres; infinite if no pair is closer than

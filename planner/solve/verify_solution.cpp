@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "collision/core/shortest.h"
 #include "planner/checker/default_tolerance.h"
@@ -9,6 +10,7 @@
 #include "planner/problem/digest.h"
 #include "planner/problem/yaml_reader.h"
 #include "planner/robot/angles.h"
+#include "planner/solve/keep_clearance.h"
 #include "planner/solve/outside_bounds.h"
 #include "planner/verify/edge_curve.h"
 
@@ -303,18 +305,18 @@ const char* verdictName(const VerifyReport& report) {
 
 namespace {
 
-/// Tries to prove the clearance that a solution claims, as a margin, if the bound that the report
-/// has falls short of it. Refining a bound is another method than proving a margin, and ends
-/// earlier.
-void proveClaim(PathProblem plain, const Solution& solution, PathReport& report) {
-  const double claim = solution.clearance;
+/// Tries to prove a clearance as a margin, if the bound that the report has falls short of it.
+/// Refining a bound is another method than proving a margin, and ends earlier.
+/// @param verify verifies the path or curve of the report.
+void proveClaim(PathProblem plain, double claim,
+                const std::function<PathReport(const PathProblem&)>& verify, PathReport& report) {
   if (report.verdict != PathVerdict::proved || !(claim > report.provenClearance) ||
       !(claim < report.smallestDistanceMet))
     return;
   plain.margin = claim;
   plain.heldPairs.clear();
   for (VerifyPair& pair : plain.pairs) pair.padding = 0;
-  const PathReport claimed = verifyPath(plain, solution.path);
+  const PathReport claimed = verify(plain);
   report.distanceQueries += claimed.distanceQueries;
   if (claimed.verdict == PathVerdict::proved) report.provenClearance = claimed.provenClearance;
   report.smallestDistanceMet = std::min(report.smallestDistanceMet, claimed.smallestDistanceMet);
@@ -344,7 +346,8 @@ VerifyReport verifySolution(const Problem& problem, const Solution& solution,
   // edge.
   plain.workLimit = std::max<std::uint64_t>(plain.workLimit, 2000 * solution.path.size());
   report.pathReport = verifyPath(plain, solution.path);
-  proveClaim(std::move(plain), solution, report.pathReport);
+  const auto again = [&](const PathProblem& with) { return verifyPath(with, solution.path); };
+  proveClaim(std::move(plain), solution.clearance, again, report.pathReport);
   report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
   return report;
 }
@@ -378,7 +381,12 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   // A curve outside the bounds is refuted already, and may be of any length, for instance if its
   // times have a wrong unit. So only contacts that are found quickly are reported, too.
   if (!report.violations.empty()) plain.workLimit = 10'000;
+  // A file of rows claims no clearance. The preferred one is what the trajectory should have.
+  plain.wantedClearance = preferredClearance(problem);
   report.pathReport = verifyCurve(plain, curve.pieces);
+  const auto again = [&](const PathProblem& with) { return verifyCurve(with, curve.pieces); };
+  const double wanted = plain.wantedClearance;
+  proveClaim(std::move(plain), wanted, again, report.pathReport);
   report.verdict = report.violations.empty() ? report.pathReport.verdict : PathVerdict::refuted;
   return report;
 }

@@ -300,7 +300,8 @@ std::string whyUndecided(UndecidedReason reason) {
 std::string adviceOnLinks(const Checker& checker, const Contact& pair) {
   const std::vector<ModelBody>& bodies = checker.model().bodies;
   const ModelBody &a = bodies[checker.bodyOf(pair.bodyA)], &b = bodies[checker.bodyOf(pair.bodyB)];
-  if (!a.robot || a.robot != b.robot) return "";
+  const bool isSet = checker.required().padding.beyond.largest() > 0;
+  if (!a.robot || a.robot != b.robot || isSet) return "";
   return "margin: {self: …, world: …} sets another one for a robot's own links, and padding: "
          "{bodies: …} one for links and obstacles only; ";
 }

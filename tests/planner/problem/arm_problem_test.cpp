@@ -392,10 +392,11 @@ TEST_F(ArmProblem, APlanarJointMaySlide) {
                          "drives are not planned for: drive"));
   }
   write("cart.srdf", property("drive", "diff_drive"));
-  EXPECT_THAT(complaintOf(problem),
-              testing::HasSubstr("cart.srdf:2: <joint_property>: the motion_model is diff_drive; "
-                                 "paths of differential drives are not planned for: joint "
-                                 "\"drive\" would move in any direction"));
+  EXPECT_THAT(
+      complaintOf(problem),
+      testing::HasSubstr("cart.srdf:2: <joint_property>: the motion_model is \"diff_drive\"; "
+                         "paths of differential drives are not planned for: joint "
+                         "\"drive\" would move in any direction"));
   write("cart.yaml", "format: corridor-robot-1\nurdf: cart.urdf\ndrive: differential\n");
   EXPECT_THAT(complaintOf(problem), testing::HasSubstr("cart.yaml:3: \"drive\" is not supported "
                                                        "yet; a base moves in any direction"));

@@ -145,7 +145,8 @@ TEST_F(ProblemFaults, WrongTypes) {
   EXPECT_EQ(with("margin: '0.1'\n"),
             "problem.yaml:8: margin: the number 0.1 is in quotes; remove them");
   EXPECT_EQ(with("margin: 0.1m\n"), "problem.yaml:8: margin: a number is needed, not \"0.1m\"");
-  EXPECT_EQ(with("margin: [1]\n"), "problem.yaml:8: margin: a number is needed, not a list");
+  EXPECT_EQ(with("margin: [1]\n"),
+            "problem.yaml:8: margin: a number or a map {self: …, world: …} is needed, not a list");
   EXPECT_EQ(with("margin:\n"), "problem.yaml:8: margin: a number is needed, not nothing");
   EXPECT_EQ(with("planner: RRT\n"),
             "problem.yaml:8: planner: a map such as {name: …} is needed, not \"RRT\"");

@@ -15,7 +15,8 @@ TEST_F(ProblemFaults, Margin) {
       with("margin: {pairs: [[rock, rook, 1]]}\n"),
       "problem.yaml:8: margin.pairs: there is no body \"rook\" (did you mean \"rock\"?) (known: "
       "wedge, rock)");
-  EXPECT_EQ(with("margin: [1, 2]\n"), "problem.yaml:8: margin: a number is needed, not a list");
+  EXPECT_EQ(with("margin: [1, 2]\n"),
+            "problem.yaml:8: margin: a number or a map {self: …, world: …} is needed, not a list");
   EXPECT_EQ(with("margin: {self: 0, world: 0.01}\nprefer: {clearance: 0.005}\n"), "no complaint");
 }
 
