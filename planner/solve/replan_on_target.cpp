@@ -29,8 +29,11 @@ constexpr double kRange = 0.25, kLeastRange = 0.2;
 
 /// The number of searches for the same stretch: each finds another path.
 constexpr int kSearches = 3;
+/// If one found a stretch that is too long by less than this factor, there are more of them.
+constexpr double kNearlyShort = 1.25;
+constexpr int kMoreSearches = 12;
 /// Edges that each search may test at first. If none succeeds, it is multiplied by four.
-constexpr std::uint64_t kEdges = 1000;
+constexpr std::uint64_t kEdges = 600;
 /// Rounds of a search that count as an edge. (In many, both ends of the edge are out of the
 /// ellipse.)
 constexpr std::uint64_t kRoundsOfEdge = 100;
@@ -127,7 +130,8 @@ class Replanner {
       for (std::size_t a = first, b = last, wider = 1;; wider *= 2) {
         // An end of the path may miss a target: because of the tube, or a padding.
         if (!isOnTarget(path[a]) || !isOnTarget(path[b])) return false;
-        for (int n = 0; n < kSearches; ++n) {
+        isNearlyShort_ = false;
+        for (int n = 0; n < (isNearlyShort_ ? kMoreSearches : kSearches); ++n) {
           if (tested_ >= limits_.mostEdges) return false;
           if (isStopped_ = isStopped_ || limits_.stop(); isStopped_) return false;
           if (replace(path, a, b, std::min(edges, limits_.mostEdges - tested_))) return true;
@@ -153,6 +157,8 @@ class Replanner {
         simplifiedVersions(configurations_, *found, onTarget_, limits_.stop).back();
     if (distanceAlong(configurations_, shorter) > longest) {
       foundLonger_ = true;
+      isNearlyShort_ =
+          isNearlyShort_ || distanceAlong(configurations_, shorter) < kNearlyShort * longest;
       return false;
     }
     for (std::size_t i = 0; i + 1 < shorter.size(); ++i) {
@@ -207,7 +213,9 @@ class Replanner {
   EdgeMemory &free_, &onTarget_;
   const ReplanLimits& limits_;
   std::uint64_t tested_ = 0;
-  bool foundLonger_ = false, isStopped_ = false;
+  bool foundLonger_ = false;    // for the present stretch
+  bool isNearlyShort_ = false;  // at the present width
+  bool isStopped_ = false;
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ constexpr double kProgressPeriod = 0.1;  // s
 constexpr double kSmallClearance = 0.005, kClearanceDivisor = 8;
 /// The number of edges that are tested to replan stretches with too little clearance: kReplanEdges,
 /// and kReplanShare times those of the search.
-constexpr std::uint64_t kReplanEdges = 5000, kReplanShare = 5;
+constexpr std::uint64_t kReplanEdges = 8000, kReplanShare = 10;
 
 /// Minimises the length of a path in the space's distance. OMPL's own class samples ellipses
 /// directly, and throws for spaces in which it can't. For such a space this class samples the whole
