@@ -189,8 +189,12 @@ std::string lineOf(const ordered_json& report) {
           (radians > 0 ? rounded(radians) + " rad" : "");
   if (metres == 0 && radians == 0) line += "0 m";
   line += ", " + counted(path["states"].get<std::uint64_t>(), "state");
-  if (report.contains("clearance"))
-    line += ", clearance " + rounded(1e3 * report["clearance"]["proved_m"].get<double>()) + " mm";
+  if (report.contains("clearance")) {
+    const auto& clearance = report["clearance"];
+    line += ", clearance " + rounded(1e3 * clearance["proved_m"].get<double>()) + " mm";
+    if (clearance["share_on_target"] < 1)
+      line += " (targets kept on " + percent(clearance["share_on_target"]) + " of the length)";
+  }
   line += report["certified"].get<bool>() ? ", certified" : ", not certified";
   if (const std::size_t pairs = report["left_out"].size();
       pairs > 0 && report["certified"].get<bool>())

@@ -21,6 +21,10 @@ std::string durationText(double seconds) {
   return seconds < 1 ? rounded(1e3 * seconds) + " ms" : rounded(seconds) + " s";
 }
 
+std::string percent(double share) {
+  return rounded(std::floor(1e3 * share) / 10) + " %";
+}
+
 namespace {
 
 /// Returns the seconds of each of `kSolvePhases`.
@@ -39,10 +43,6 @@ std::string provedText(double metres) {
   return metres > 0 ? "proved: " + rounded(1e3 * metres) + " mm"
                     : "free, but no distance is proved";
 }
-std::string percent(double share) {
-  return rounded(std::floor(1e3 * share) / 10) + " %";
-}
-
 std::string reasonOf(WhyOffTarget why) {
   switch (why) {
     case WhyOffTarget::detour:

@@ -12,6 +12,9 @@
 
 namespace corridor::app {
 
+/// Returns a share of at most 1 in per cent, rounded down: "88.4 %".
+std::string percent(double share);
+
 /// A problem that `corridor solve` has solved, or has tried to.
 struct Solved {
   Problem problem;

@@ -120,6 +120,10 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   d["length_m"] = r.length.metres;
   d["length_rad"] = r.length.radians;
   d["proved_clearance_m"] = r.clearance ? py::cast(r.clearance->proved) : py::none();
+  if (r.clearance) {
+    d["share_on_target"] = r.clearance->shareOnTarget;
+    d["why_off_target"] = nameOf(r.clearance->why);
+  }
   d["warnings"] = [&] {
     std::vector<std::string> texts;
     for (const Fault& fault : r.warnings) texts.push_back(fault.str());

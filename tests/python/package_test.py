@@ -276,6 +276,16 @@ class Problems(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, "start: the upper left 3×3 matrix must be a rotation"):
                     corridor.first_contact(ball, ball, pose, pose)
 
+    def test_figures_say_where_targets_are_kept(self):
+        problem = corridor.read_problem(ARM)
+        kept = corridor.solve(problem, trajectory="csv")
+        self.assertEqual(kept.figures["share_on_target"], 1)
+        self.assertEqual(kept.figures["why_off_target"], "")
+        self.assertGreater(kept.trajectory["proved_clearance_m"], 0)
+        missed = corridor.solve(corridor.read_problem(ARM.parent / "snake_posts").edited(clearance=0.1))
+        self.assertLess(missed.figures["share_on_target"], 1)
+        self.assertIn(missed.figures["why_off_target"], ("detour", "not found", "time"))
+
     def test_the_order_of_edits_does_not_matter(self):
         problem = corridor.read_problem(ARM)
         for edits in (

@@ -312,7 +312,9 @@ class Solution:
     why: str  #: why the problem is not solved, one line; empty if solved
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved, for all pairs except `left_out`
-    #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more
+    #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more.
+    #: `share_on_target`: the fraction of the path's length on which every pair keeps its target; `why_off_target`: why
+    #: it is below 1: "detour", "not found" or "time"
     figures: dict[str, Any] = field(default_factory=dict)
     #: `text`, `duration`, `proved`, `keeps_limits`, `proved_clearance_m`, `why_none`. Empty if `solve` was called without `trajectory`, or if
     #: the problem is not solved

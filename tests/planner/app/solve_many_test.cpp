@@ -76,6 +76,15 @@ TEST_F(SolveMany, ExitsWithTheWorstStatus) {
   EXPECT_EQ(run("solve problem.yaml arm.yaml --planner RRT --time 1e-9 --quiet").status, 1);
 }
 
+TEST_F(SolveMany, SaysWhereTargetsAreMissed) {
+  write("short.yaml", read("arm.yaml") + "prefer: {clearance: 0.3, detour: 0}\n");
+  const Result result = run("solve arm.yaml short.yaml");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("\nshort: solved, .* mm \\(targets kept on "
+                                                 "[0-9.]+ % of the length\\), certified"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("arm: solved, .*, clearance [0-9.]+ mm, cert"));
+}
+
 TEST_F(SolveMany, TrajectoriesInAFolder) {
   const Result result = run("solve problem.yaml arm.yaml --trajectory made -o solved");
   ASSERT_EQ(result.status, 0) << result.err;
