@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collision/core/error.h"
+#include "collision/core/file_cache.h"
 #include "collision/core/quantiles.h"
 #include "collision/core/spelling.h"
 #include "planner/app/commands.h"

@@ -194,10 +194,10 @@ class Replanner {
     planner.setProblemDefinition(definition);
     planner.setup();
     std::uint64_t rounds = 0;
-    planner.solve(ob::PlannerTerminationCondition(
-        [&] { return validator->tested() >= edges || ++rounds > 100 * edges || limits_.stop(); }));
-    // At least one, so that the searches end.
-    tested_ += std::max<std::uint64_t>(validator->tested(), 1);
+    planner.solve(ob::PlannerTerminationCondition([&] {
+      return validator->tested() >= edges || ++rounds > kRoundsOfEdge * edges || limits_.stop();
+    }));
+    tested_ += std::max(validator->tested(), rounds / kRoundsOfEdge + 1);
     if (!definition->hasExactSolution()) return std::nullopt;
     Path path = configurationsOf(*definition->getSolutionPath()->as<og::PathGeometric>());
     path.front() = from;
