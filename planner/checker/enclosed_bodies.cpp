@@ -76,7 +76,13 @@ class EnclosureTest {
   /// inside if any of its components is.
   static bool mayContain(const Posed<Body>& outer, const Posed<Body>& inner) {
     const Transform X_AB = rigidInverse(outer.X_W) * inner.X_W;
-    const auto isOut = [&](const Vec3& point) { return isOutside(outer.shape, X_AB * point); };
+    // More than the rounding of a point of the inner body in the frame of the outer one, which is
+    // some 2^-50 of these lengths.
+    const double error = 0x1p-44 * (outer.X_W.t.stableNorm() + inner.X_W.t.stableNorm() +
+                                    outer.shape.radius() + inner.shape.radius());
+    const auto isOut = [&](const Vec3& point) {
+      return isOutside(outer.shape, X_AB * point, error);
+    };
     return inner.shape.isMesh()
                ? !std::ranges::all_of(inner.shape.components().components,
                                       [&](const auto& each) { return isOut(each.corner); })
@@ -84,35 +90,42 @@ class EnclosureTest {
   }
 
   /// Returns whether a point is certainly in no watertight component: outside of its box, or a ray
-  /// from the point crosses it an even number of times. `findEnclosed` is exact, but needs a tree,
-  /// which takes a hundred times as long for a scene's mesh. 2^-36 exceeds all rounding by far.
-  static bool isOutside(const Body& body, const Vec3& p) {
-    constexpr double kUnsure = 0x1p-36;
+  /// from the point crosses it an even number of times. `containing` is exact, but needs a tree,
+  /// which takes a hundred times as long for a scene's mesh.
+  ///
+  /// Let v be a triangle's corners as seen from p. A triple product is off by some 2^-50 of the
+  /// lengths of its factors, and by `error` times the products of two (or, with the ray, of one) of
+  /// the lengths. If one is not larger, nothing is certain.
+  /// @param error of p, metres
+  static bool isOutside(const Body& body, const Vec3& p, double error) {
+    constexpr double kRounding = 0x1p-44;
     const MeshComponents& all = body.components();
     std::vector<std::size_t> crossings(all.components.size(), 0);
     std::vector<char> isAround;
     for (const MeshComponents::Component& each : all.components)
-      isAround.push_back(each.watertight && (each.lower - p).cwiseMax(p - each.upper).maxCoeff() <=
-                                                kUnsure * (p.stableNorm() + body.radius()));
+      isAround.push_back(each.watertight &&
+                         (each.lower - p).cwiseMax(p - each.upper).maxCoeff() <= error);
     if (std::ranges::find(isAround, 1) == isAround.end()) return true;
-    const Vec3 ray(0.318, 0.427, 0.846);
+    const Vec3 ray(0.318, 0.427, 0.846);  // about a unit vector
     for (std::size_t t = 0; t < all.of.size(); ++t) {
       if (!isAround[all.of[t]]) continue;
       Vec3 v[3];
-      double length[3], side[3];
+      double length[3];
       for (int i = 0; i < 3; ++i) length[i] = (v[i] = body.mesh().corner(t, i) - p).norm();
       int left = 0, right = 0;
+      double pairs = 0;  // sum of the products of two lengths
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
-        side[i] = ray.dot(v[i].cross(v[j]));
-        const double unsure = kUnsure * length[i] * length[j];
-        left += side[i] > unsure;
-        right += side[i] < -unsure;
+        const double side = ray.dot(v[i].cross(v[j])), both = length[i] * length[j];
+        const double unsure = kRounding * both + 2 * error * (length[i] + length[j]);
+        left += side > unsure;
+        right += side < -unsure;
+        pairs += both;
       }
       if (left > 0 && right > 0) continue;  // the ray's line passes the triangle
       const double volume = v[0].dot(v[1].cross(v[2]));
       if ((left < 3 && right < 3) ||
-          !(std::abs(volume) > kUnsure * length[0] * length[1] * length[2]))
+          !(std::abs(volume) > kRounding * length[0] * length[1] * length[2] + 2 * error * pairs))
         return false;  // unsure
       crossings[all.of[t]] += (volume > 0) == (left == 3);
     }

@@ -36,40 +36,29 @@ std::vector<Note> notesOnFiles(const Owners& owners) {
   return notes;
 }
 
-/// Returns the planar joints that are planned for, with their robots' prefixes.
-std::vector<std::pair<std::string, const JointModel*>> planarJoints(const Model& model) {
-  std::vector<std::pair<std::string, const JointModel*>> all;
-  for (const ModelRobot& robot : model.robots)
-    for (const PlannedJoint& planned : robot.plannedJoints)
-      for (const JointModel& joint : robot.description.joints)
-        if (joint.name == planned.name && joint.type == JointType::planar)
-          all.emplace_back((robot.name.empty() ? "" : robot.name + "/") + joint.name, &joint);
-  return all;
-}
-
-/// @throws InputError if a planar joint is planned for that may not slide.
-void requireSliding(const Problem& problem) {
-  for (const auto& [name, joint] : planarJoints(problem.model))
-    if (!joint->whyNoSliding.empty())
-      throw InputError(
-          Fault{problem.source.file.string(), 0,
-                joint->whyNoSliding +
-                    "; paths of differential drives are not planned "
-                    "for: joint " +
-                    quotedWord(name) +
-                    " would move in any direction. Hold it (hold), or remove the property "
-                    "if the base may slide"});
-}
-
-std::vector<Note> notesOnSliding(const Problem& problem) {
+/// Adds a note on the planar joints that are planned for.
+/// @throws InputError if a file says that one of them can't move sideways.
+void noteOnSliding(Problem& problem) {
   std::vector<std::string> names;
-  for (const auto& [name, joint] : planarJoints(problem.model)) names.push_back(name);
-  if (names.empty()) return {};
-  return {
+  for (const ModelRobot& robot : problem.model.robots)
+    for (const PlannedJoint& planned : robot.plannedJoints) {
+      if (planned.type != JointType::planar || planned.name.empty()) continue;  // or a rigid robot
+      names.push_back((robot.name.empty() ? "" : robot.name + "/") + planned.name);
+      for (const JointModel& joint : robot.description.joints)
+        if (joint.name == planned.name && !joint.whyNoSliding.empty())
+          throw InputError(Fault{
+              problem.source.file.string(), 0,
+              joint.whyNoSliding + "; paths of differential drives are not planned for: joint " +
+                  quotedWord(names.back()) +
+                  " would move in any direction. Hold it (hold), or remove the property if the "
+                  "base may slide"});
+    }
+  if (names.empty()) return;
+  problem.source.notes.push_back(
       {"planar joints move in any direction, so the base may slide; differential drives are not "
        "planned for: " +
            joinedFirst(names, 6),
-       NoteWeight::motion}};
+       NoteWeight::motion});
 }
 
 /// Returns the notes on the problem's bodies and pairs.
@@ -217,8 +206,7 @@ void finishProblem(const AllowedBodies& allowed, const TubeSpec& tube, Problem& 
   if (problem.task.limits.velocity.size() == 0) problem.task.limits = limitsOf(problem.model);
   requireFewPairs(problem.model, problem.source.file.string());
   requireFiniteSizes(problem.model, problem.source.file.string());
-  requireSliding(problem);
-  addAll(notesOnSliding(problem), problem.source.notes);
+  noteOnSliding(problem);
   for (const auto& [a, b] : allowed) problem.model.filter.skip(a, b, "allow");
   problem.task.tube = tubeOf(problem.model.space, tube);
   addNotes(problem);

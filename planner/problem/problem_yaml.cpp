@@ -263,8 +263,7 @@ void readYaml(const std::filesystem::path& file, FileCache* cache, Problem& prob
     for (const auto& [body, metres] : padding.bodies) problem.task.padding.bodies[body] = metres;
     problem.task.padding.pairs = std::move(padding.pairs);
   }
-  if (known || !map.find("margin") || map.find("margin")->kind != YamlValue::Kind::Map)
-    readMargin(map, problem.model, problem.task);
+  readMargin(map, known ? &problem.model : nullptr, problem.task);
   const TubeSpec tube = readTube(map, problem.model.space, known);
   const LimitSpec limits =
       readLimits(map, file.parent_path(), problem.model, known, problem.source.files);

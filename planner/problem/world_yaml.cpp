@@ -256,7 +256,7 @@ Padding readPadding(const YamlMap& file, const Model& model) {
   return padding;
 }
 
-void readMargin(const YamlMap& file, const Model& model, Task& task) {
+void readMargin(const YamlMap& file, const Model* model, Task& task) {
   const YamlValue* value = file.find("margin");
   if (value && value->kind == YamlValue::Kind::List) {
     file.fault("margin", "a number or a map {self: …, world: …} is needed, not a list");
@@ -270,7 +270,8 @@ void readMargin(const YamlMap& file, const Model& model, Task& task) {
   if (value->entries.empty()) file.fault("margin", "self, world or pairs is needed");
   const double self = map.number("self", Range::NotNegative).value_or(0),
                world = map.number("world", Range::NotNegative).value_or(0);
-  const auto pairs = readPairs(map, "margin", BodyNames(model), [&](const std::string& link) {
+  if (!model) return;
+  const auto pairs = readPairs(map, "margin", BodyNames(*model), [&](const std::string& link) {
     file.source().notes.push_back(
         {"margin.pairs: " + quotedWord(link) + " has no shapes, so its margin is not used",
          NoteWeight::coverage});

@@ -20,8 +20,8 @@ AllowedBodies readAllow(const YamlMap& file, const Model& model);
 Padding readPadding(const YamlMap& file, const Model& model);
 
 /// Reads `margin`, a number or a map of margins, into `task.margin` and `task.padding.beyond`.
-/// Pairs with a link without shapes are left out, with a note. @pre The model has all its bodies,
-/// or the margin is a number. `task.padding` has been read.
-void readMargin(const YamlMap& file, const Model& model, Task& task);
+/// Pairs with a link without shapes are left out, with a note. @pre `task.padding` has been read.
+/// @param model with all its bodies; null if there were faults in them: then no pairs are read
+void readMargin(const YamlMap& file, const Model* model, Task& task);
 
 }  // namespace corridor

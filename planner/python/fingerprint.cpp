@@ -40,6 +40,7 @@ class Bytes {
     for (const auto& [body, padding] : task.padding.bodies) add(body), add(padding);
     for (const auto& [pair, padding] : task.padding.pairs)
       add(pair.first), add(pair.second), add(padding);
+    add(task.padding.pairs.size());
     add(task.padding.beyond.self), add(task.padding.beyond.world);
     for (const auto& [pair, margin] : task.padding.beyond.pairs)
       add(pair.first), add(pair.second), add(margin);

@@ -149,6 +149,18 @@ PairMargins ClearanceTargets::scaled(double factor) const {
   return PairMargins(std::move(lengths));
 }
 
+/// Measures the pairs at a time of an edge. If the ratio distance / entry in `lengths` of one is
+/// below `worst.share`, sets `worst` to it. @param pairs null: all
+void ClearanceTargets::sampleAt(const Configuration& from, const Configuration& to, double t,
+                                const PairMargins& lengths, const std::vector<std::uint32_t>* pairs,
+                                Worst& worst) const {
+  if (t < 0 || t > 1) return;
+  for (const Scene::NearPair& near : checker_.pairsWithin(checker_.space().interpolate(from, to, t),
+                                                          lengths, {pairs, worst.share}))
+    if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
+      worst = {share, t, near.distance.distance, near.pair};
+}
+
 /// Searches an edge for the pair and the time at which distance / entry in `lengths` is the
 /// smallest: at samples, and then around the sample with the smallest ratio. If no ratio is below
 /// 1, returns a `Worst` with the share 1.
@@ -163,11 +175,7 @@ ClearanceTargets::Worst ClearanceTargets::worstOn(
   const int count = static_cast<int>(std::clamp<double>(samples, kLeastSamples, kMostSamples));
   Worst worst;
   const auto sample = [&](double t) {
-    if (t < 0 || t > 1 || worst.share < enough) return;
-    for (const Scene::NearPair& near :
-         checker_.pairsWithin(space.interpolate(from, to, t), lengths, {&pairs, worst.share}))
-      if (const double share = near.distance.distance / lengths[near.pair]; share < worst.share)
-        worst = {share, t, near.distance.distance, near.pair};
+    if (worst.share >= enough) sampleAt(from, to, t, lengths, &pairs, worst);
   };
   if (first) sample(*first);
   for (int i = 0; i <= (length > 0 ? count : 0); ++i) sample(double(i) / count);
@@ -212,13 +220,7 @@ std::optional<ClearanceTargets::Worst> ClearanceTargets::closestNear(const Confi
                                                                      const Configuration& to,
                                                                      double t) const {
   Worst closest;
-  const auto sample = [&](double at) {
-    if (at < 0 || at > 1) return;
-    for (const Scene::NearPair& near : checker_.pairsWithin(
-             checker_.space().interpolate(from, to, at), clearances_, {nullptr, closest.share}))
-      if (const double share = near.distance.distance / clearance_; share < closest.share)
-        closest = {share, at, near.distance.distance, near.pair};
-  };
+  const auto sample = [&](double at) { sampleAt(from, to, at, clearances_, nullptr, closest); };
   sample(t);
   for (double step = kWidest; step >= kNarrowest; step /= 2) {
     const double middle = closest.share < 1 ? closest.t : t;

@@ -86,6 +86,9 @@ class ClearanceTargets {
   std::optional<Configuration> movedApart(const Configuration& q) const;
 
  private:
+  void sampleAt(const Configuration& from, const Configuration& to, double t,
+                const PairMargins& lengths, const std::vector<std::uint32_t>* pairs,
+                Worst& worst) const;
   Worst worstOn(const Configuration& from, const Configuration& to, const PairMargins& lengths,
                 const std::vector<std::uint32_t>& pairs, double enough = 0,
                 std::optional<double> first = {}) const;

@@ -26,6 +26,9 @@ namespace {
 /// The longest edge of a search, as a fraction of the distance between its ends; but at least
 /// kLeastRange, in the space's distance.
 constexpr double kRange = 0.25, kLeastRange = 0.2;
+/// A search may use states through which the path is longer than allowed, up to this factor: it is
+/// shortened afterwards.
+constexpr double kLonger = 1.2;
 
 /// The number of searches for the same stretch: each finds another path.
 constexpr int kSearches = 3;
@@ -173,8 +176,7 @@ class Replanner {
   /// Searches for a path that keeps all targets.
   std::optional<Path> search(const Configuration& from, const Configuration& to, double longest,
                              std::uint64_t edges) {
-    // Shortcuts make the path shorter, so states a little outside are useful, too.
-    const Ellipse ellipse(configurations_, from, to, 1.2 * longest);
+    const Ellipse ellipse(configurations_, from, to, kLonger * longest);
     const auto si = std::make_shared<ob::SpaceInformation>(space_);
     const auto validator = std::make_shared<TargetValidator>(si, targets_, ellipse);
     si->setStateValidityChecker([&](const ob::State* state) {

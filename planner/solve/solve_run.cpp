@@ -347,10 +347,7 @@ bool SolveRun::certified(const Path& path) {
   const double before = clock_.seconds(), processorBefore = clock_.processorSeconds();
   const bool isKnown = edges_ && testsAreProofs();
   const bool holds = isCertified(checker_, path, isKnown ? &*edges_ : nullptr);
-  if (holds && targets_) {
-    report_.clearance = proveClearance(checker_, *targets_, path, *onTarget_);
-    if (report_.clearance->shareOnTarget < 1) report_.clearance->why = whyOffTarget_;
-  }
+  if (holds && targets_) report_.clearance = proveClearance(checker_, *targets_, path, *onTarget_);
   report_.certificationTime += clock_.seconds() - before;
   // `plan` counts the whole of `finish` as search, so the certification is subtracted here.
   report_.searchProcessorTime -= clock_.processorSeconds() - processorBefore;
@@ -432,8 +429,9 @@ void SolveRun::finish() {
     report_.outcome = SolveOutcome::solved;
     report_.certified = !discrete();
     report_.version = static_cast<int>(i);
-    if (report_.clearance && i + 1 < versions.size())  // the reason was that of another path
-      report_.clearance->why = WhyOffTarget::unknown;
+    // The reason is that of the last version.
+    if (report_.clearance && report_.clearance->shareOnTarget < 1 && i + 1 == versions.size())
+      report_.clearance->why = whyOffTarget_;
     report_.length = lengthOf(problem_.model.space, states);
     report_.path = std::move(states);
     if (options_.noteLeftOut) addAll(notesOnJointsToHold(problem_, report_.path), report_.notes);

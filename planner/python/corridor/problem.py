@@ -316,8 +316,8 @@ class Solution:
     #: `share_on_target`: the fraction of the path's length on which every pair keeps its target; `why_off_target`: why
     #: it is below 1: "detour", "not found" or "time"
     figures: dict[str, Any] = field(default_factory=dict)
-    #: `text`, `duration`, `proved`, `keeps_limits`, `proved_clearance_m`, `why_none`. Empty if `solve` was called without `trajectory`, or if
-    #: the problem is not solved
+    #: `text`, `duration`, `proved`, `keeps_limits`, `proved_clearance_m`, `why_none`. Empty if `solve` was called
+    #: without `trajectory`, or if the problem is not solved
     trajectory: dict[str, Any] = field(default_factory=_NoTrajectory)
     #: pairs that no proof covers: names of the two bodies, and "touch at rest", "within the margin at rest", "allow" or
     #: "allowed_collision_matrix". At least one body of each pair is an obstacle, or they belong to two robots
