@@ -21,6 +21,13 @@ inline double roundedUp(double bound) {
   return bound * (1 + 0x1p-48) + kTiny;
 }
 
+/// Returns a + b if it is exact, else an upper bound of the real sum. NaN stays NaN. The error of a
+/// sum is a double, and computed exactly (Dekker 1971, FastTwoSum). @pre a ≥ |b|, or b ≥ |a|.
+inline double sumRoundedUp(double a, double b) {
+  const double sum = a + b, error = std::min(a, b) - (sum - std::max(a, b));
+  return error == 0 ? sum : roundedUp(sum);
+}
+
 /// Returns a lower bound of the real value of `bound`, if `bound` was computed from positive terms
 /// with at most 16 roundings.
 inline double roundedDown(double bound) {

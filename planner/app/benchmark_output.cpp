@@ -54,8 +54,9 @@ std::string clockText(double seconds) {
 /// contact only, so the verifier may refute paths of theirs that touch nothing, because these paths
 /// violate the margin.
 std::string marginNote(const Campaign& campaign) {
-  const bool margin = std::any_of(campaign.problems.begin(), campaign.problems.end(),
-                                  [](const Problem& p) { return p.task.margin > 0; });
+  const bool margin =
+      std::any_of(campaign.problems.begin(), campaign.problems.end(),
+                  [](const Problem& p) { return p.task.margin > 0 || !p.task.padding.empty(); });
   for (const Variant& variant : campaign.variants)
     if (margin && variant.competitor)
       return variant.competitor->name +

@@ -1,4 +1,5 @@
-#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <set>
@@ -119,9 +120,10 @@ class ProblemReport {
     const auto nameOf = [&](std::size_t body) { return problem_.model.bodies[body].name; };
     const MarginsBeyond& beyond = padding.beyond;
     if (beyond.largest() > 0) {
-      // What is beyond the margin was rounded up.
       const auto total = [&](double metres) {
-        return std::round(1e12 * (problem_.task.margin + metres)) / 1e12;
+        char text[32];  // the sum was rounded up, by far less than its twelfth digit
+        std::snprintf(text, sizeof text, "%.12g", problem_.task.margin + metres);
+        return std::strtod(text, nullptr);
       };
       json_["margins"] = {{"self_m", total(beyond.self)}, {"world_m", total(beyond.world)}};
       out_.line("margin", rounded(total(beyond.self)) + " m between links of a robot, " +

@@ -196,8 +196,7 @@ Checker::Checker(const Problem& problem, std::span<const Body> earlier)
 Checker::~Checker() = default;
 
 double Checker::marginOf(std::size_t a, std::size_t b) const {
-  const double padding = paddingOf(model_, required_.padding, a, b);
-  return padding > 0 ? roundedUp(options_.margin + padding) : options_.margin;
+  return sumRoundedUp(options_.margin, paddingOf(model_, required_.padding, a, b));
 }
 
 Checker::Workspace& Checker::workspaceOfThread() const {

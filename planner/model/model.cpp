@@ -12,7 +12,7 @@ namespace {
 /// Returns whether a proof covers the requirements, for a pair with this padding.
 bool covers(const PairProof& proof, const Required& need, double padding) {
   // The sum is rounded up, because the proof must cover the exact sum.
-  const double margin = padding == 0 ? need.margin : roundedUp(need.margin + padding);
+  const double margin = sumRoundedUp(need.margin, padding);
   // Numbers that are no lengths, such as NaN, are not covered: the tests refuse them.
   if (!(need.margin >= 0 && padding >= 0)) return false;
   if (!(margin <= proof.margin)) return false;

@@ -19,26 +19,16 @@ double MarginsBeyond::largest() const {
   return most;
 }
 
-namespace {
-
-/// Returns a + b, rounded up; exactly, if one of them is 0. NaN stays NaN, and is refused.
-double sumOf(double a, double b) {
-  return a == 0 ? b : b == 0 ? a : roundedUp(a + b);
-}
-
-}  // namespace
-
 double Padding::of(std::size_t a, std::size_t b, bool sameRobot) const {
   const double more = beyond.of(a, b, sameRobot);
   if (const auto pair = pairs.find(std::minmax(a, b)); pair != pairs.end())
-    return sumOf(pair->second, more);
+    return sumRoundedUp(pair->second, more);
   if (sameRobot) return more;
   const auto own = [&](std::size_t body) {
     const auto found = bodies.find(body);
     return found == bodies.end() ? 0 : found->second;
   };
-  const double sum = own(a) + own(b);
-  return sumOf(sum == 0 ? 0 : roundedUp(sum), more);
+  return sumRoundedUp(sumRoundedUp(own(a), own(b)), more);  // NaN stays NaN, and is refused
 }
 
 double Padding::largest() const {
@@ -48,8 +38,7 @@ double Padding::largest() const {
     first = std::max(first, metres);
   }
   for (const auto& [both, metres] : pairs) pair = std::max(pair, metres);
-  const double sum = first + second;
-  return sumOf(std::max(sum == 0 ? 0 : roundedUp(sum), pair), beyond.largest());
+  return sumRoundedUp(std::max(sumRoundedUp(first, second), pair), beyond.largest());
 }
 
 Required Required::beyondProofs() {

@@ -104,18 +104,20 @@ void noteOnPadding(Problem& problem) {
   std::erase_if(notes,
                 [](const Note& note) { return note.text.find(kNoteOnPadding) != note.text.npos; });
   const Required need = requiredBy(problem.task);
-  const auto noteEach = [&](const char* key, const auto& pairs) {
+  // `least`: what each pair keeps besides its own entry.
+  const auto noteEach = [&](const char* key, double least, const auto& pairs) {
     for (const auto& [pair, metres] : pairs) {
       const std::string_view why = problem.model.filter.whyNotTested(pair.first, pair.second, need);
-      if (metres == 0 || why.empty() || why == kTestedAtRest || why == kNeverInContact) continue;
+      if (least + metres == 0 || why.empty() || why == kTestedAtRest || why == kNeverInContact)
+        continue;
       notes.push_back({key + std::string(kNoteOnPadding) + problem.model.bodies[pair.first].name +
                            " and " + problem.model.bodies[pair.second].name +
                            ", which are not tested (" + std::string(why) + ")",
                        NoteWeight::coverage});
     }
   };
-  noteEach("padding", problem.task.padding.pairs);
-  noteEach("margin", problem.task.padding.beyond.pairs);
+  noteEach("padding", 0, problem.task.padding.pairs);
+  noteEach("margin", problem.task.margin, problem.task.padding.beyond.pairs);
 }
 
 void addNotes(Problem& problem) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -256,7 +257,10 @@ Padding readPadding(const YamlMap& file, const Model& model) {
   return padding;
 }
 
-void readMargin(const YamlMap& file, const Model* model, Task& task) {
+namespace {
+
+/// Reads `margin`, without a test of the sums with paddings.
+void readMarginKeys(const YamlMap& file, const Model* model, Task& task) {
   const YamlValue* value = file.find("margin");
   if (value && value->kind == YamlValue::Kind::List) {
     file.fault("margin", "a number or a map {self: …, world: …} is needed, not a list");
@@ -278,12 +282,18 @@ void readMargin(const YamlMap& file, const Model* model, Task& task) {
   });
   task.margin = std::min(self, world);
   for (const auto& [pair, metres] : pairs) task.margin = std::min(task.margin, metres);
-  const auto beyond = [&](double metres) {
-    return metres == task.margin ? 0 : roundedUp(metres - task.margin);
-  };
+  const auto beyond = [&](double metres) { return sumRoundedUp(metres, -task.margin); };
   MarginsBeyond& all = task.padding.beyond;
   all = {beyond(self), beyond(world), {}};
   for (const auto& [pair, metres] : pairs) all.pairs[pair] = beyond(metres);
+}
+
+}  // namespace
+
+void readMargin(const YamlMap& file, const Model* model, Task& task) {
+  readMarginKeys(file, model, task);
+  if (!std::isfinite(roundedUp(task.margin + task.padding.largest())))
+    file.fault(file.find("margin") ? "margin" : "padding", "margin and padding are too large");
 }
 
 }  // namespace corridor

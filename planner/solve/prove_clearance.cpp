@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "collision/core/rounding.h"
+
 namespace corridor {
 
 namespace {
@@ -86,7 +88,9 @@ double keptShare(const Checker& checker, const ClearanceTargets& targets, const 
                            .certifiedUntil,
                end = checker.certifyEdge(to, from, {.earliest = true, .margins = &targets.all()})
                          .certifiedUntil;
-  return std::min(1.0, begin + end);
+  // A sum that is rounded to 1 may leave a gap between the two parts.
+  if (end >= sumRoundedUp(1, -begin)) return 1;
+  return std::min(begin + end, std::nextafter(1.0, 0.0));
 }
 
 }  // namespace

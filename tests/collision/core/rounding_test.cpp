@@ -83,5 +83,29 @@ TEST(Rounding, BoundsAreNeverExceeded) {
   EXPECT_TRUE(std::isnan(roundedUp(std::nan(""))));
 }
 
+/// The sum of two doubles, and its error, are exact in long double here: both have digits within 64
+/// bits of the larger one.
+TEST(Rounding, SumsThatAreExactStayAsTheyAre) {
+  std::mt19937_64 random(test::testSeed(4));
+  int exact = 0;
+  for (int n = 0; n < 20'000; ++n) {
+    const double a = std::uniform_real_distribution(0.5, 1.0)(random);
+    double b = std::ldexp(std::uniform_real_distribution(0.5, 1.0)(random), -int(n % 10));
+    if (n % 3 == 0) b = std::ldexp(std::floor(std::ldexp(b, 40)), -40);
+    if (n % 2) b = -std::min(a, b);
+    const long double sum = static_cast<long double>(a) + b;
+    const bool isExact = static_cast<double>(sum) == sum;
+    exact += isExact;
+    EXPECT_GE(sumRoundedUp(a, b), sum);
+    EXPECT_EQ(sumRoundedUp(a, b) == a + b, isExact) << a << " " << b;
+    EXPECT_EQ(sumRoundedUp(a, b), sumRoundedUp(b, a));
+  }
+  EXPECT_GT(exact, 2000);
+  EXPECT_LT(exact, 18'000);
+  EXPECT_EQ(sumRoundedUp(0, 0.3), 0.3);
+  EXPECT_TRUE(std::isnan(sumRoundedUp(std::nan(""), 1)));
+  EXPECT_EQ(sumRoundedUp(HUGE_VAL, 1), HUGE_VAL);
+}
+
 }  // namespace
 }  // namespace corridor

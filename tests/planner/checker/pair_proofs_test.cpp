@@ -135,10 +135,10 @@ TEST(PairProofs, RequirementsAboveTheProofAreTested) {
   EXPECT_EQ(verdictOf(model, taskOf(model, 0.05, pair), kLimit), PathVerdict::refuted);
   EXPECT_NE(verdictOf(model, taskOf(model, 0, {}, 0.4), kLimit), PathVerdict::proved);
   // Slightly above the proof, the pair is tested, and the answer is right either way.
-  for (const CheckerOptions& options :
-       std::vector<CheckerOptions>{{.margin = std::nextafter(kMargin, 1)},
-                                   {.margin = 0.05, .padding = {{}, {{{0, 1}, 0.05}}}},
-                                   {.tube = at(std::nextafter(kBeyond, 1))}}) {
+  for (const CheckerOptions& options : std::vector<CheckerOptions>{
+           {.margin = std::nextafter(kMargin, 1)},
+           {.margin = 0.05, .padding = {{}, {{{0, 1}, std::nextafter(0.05, 1)}}}},
+           {.tube = at(std::nextafter(kBeyond, 1))}}) {
     const Checker checker(model, options);
     EXPECT_EQ(pairsOf(checker), 1u);
     EXPECT_EQ(checker.certifyState(at(0)).verdict, MotionVerdict::free);

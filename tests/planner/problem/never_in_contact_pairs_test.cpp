@@ -38,9 +38,12 @@ constexpr const char* kReason = "robot.yaml: never_in_contact";
 
 TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
   const Pairs pairs = {{"base", "finger"}};
-  for (const char* within : {"", "margin: 0.01\n", "tube: {joints: 0.002}\n",
-                             "margin: 0.005\npadding: {bodies: {finger: 9}, pairs: [[finger, base, "
-                             "0.004]]}\n"}) {
+  for (const char* within :
+       {"", "margin: 0.01\n", "tube: {joints: 0.002}\n", "margin: {self: 0.01, world: 0}\n",
+        "margin: {self: 0.01, world: 0.005}\n",
+        "margin: 0.005\npadding: {pairs: [[finger, base, 0.005]]}\n",
+        "margin: 0.005\npadding: {bodies: {finger: 9}, pairs: [[finger, base, "
+        "0.004]]}\n"}) {
     const Problem p = readWith(pairs, within);
     EXPECT_EQ(skipped(p, "base", "finger"), kReason) << within;
     EXPECT_THAT(textsOf(p.source.notes), Not(Contains(HasSubstr("never_in_contact"))));
@@ -48,8 +51,9 @@ TEST_F(NeverInContactPairs, AreTestedBeyondTheProof) {
   for (const char* beyond :
        {"margin: 0.0100001\n", "tube: {joints: 0.0021}\n", "tube: {pan: 0.01}\n",
         "margin: 0.005\npadding: {pairs: [[finger, base, 0.006]]}\n",
-        // The sum is that of the proof, but it is rounded up: a rounded sum proves nothing.
-        "margin: 0.005\npadding: {pairs: [[finger, base, 0.005]]}\n"}) {
+        "margin: {self: 0.0100001, world: 0}\n",
+        // The rounded sum is that of the proof, but the real sum is larger.
+        "margin: 0.0021\npadding: {pairs: [[finger, base, 0.0079]]}\n"}) {
     const Problem p = readWith(pairs, beyond);
     EXPECT_EQ(skipped(p, "base", "finger"), "") << beyond;
     EXPECT_THAT(textsOf(p.source.notes),

@@ -17,6 +17,9 @@ TEST_F(ProblemFaults, Margin) {
       "wedge, rock)");
   EXPECT_EQ(with("margin: [1, 2]\n"),
             "problem.yaml:8: margin: a number or a map {self: …, world: …} is needed, not a list");
+  for (const char* huge : {"margin: {self: 0, world: 1.79e308}\npadding: {bodies: {rock: 1e307}}\n",
+                           "margin: 1.7976931348623157e308\n"})
+    EXPECT_EQ(with(huge), "problem.yaml:8: margin: margin and padding are too large");
   EXPECT_EQ(with("margin: {self: 0, world: 0.01}\nprefer: {clearance: 0.005}\n"), "no complaint");
 }
 
