@@ -61,7 +61,7 @@ std::string marginNote(const Campaign& campaign) {
     if (margin && variant.competitor)
       return variant.competitor->name +
              " tests for contact without the margin, so its paths may be refuted for the margin "
-             "alone; least_distance_m in runs.csv shows which of them collide";
+             "alone; closest_found_m in runs.csv shows which of them collide";
   return "";
 }
 

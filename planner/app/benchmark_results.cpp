@@ -19,9 +19,9 @@ namespace {
 /// Returns a row per cell with the columns that fit into a terminal. The files have all columns.
 std::vector<Row> terminalRows(const Campaign& campaign, const std::vector<CampaignCell>& cells) {
   static constexpr std::array<std::string_view, 16> kColumns{
-      "problem",         "variant",          "planner",  "runs",        "failed", "solved",
-      "refuted",         "undecided",        "time_s",   "processor_s", "states", "edges",
-      "edges_undecided", "least_distance_m", "length_m", "rotation_rad"};
+      "problem",         "variant",         "planner",  "runs",        "failed", "solved",
+      "refuted",         "undecided",       "time_s",   "processor_s", "states", "edges",
+      "edges_undecided", "closest_found_m", "length_m", "rotation_rad"};
   std::vector<Row> rows = pathSummaryRows(campaign, cells);
   for (Row& row : rows)
     std::erase_if(row, [](const auto& column) {

@@ -33,6 +33,11 @@ void ResultPrinter::line(std::string_view key, const std::string& value, Tone to
             << (*on ? "\033[0m" : "") << '\n';
 }
 
+std::string provedClearanceText(double metres) {
+  return metres > 0 ? "proved: " + rounded(1e3 * metres) + " mm"
+                    : "free, but no distance is proved";
+}
+
 std::string jsonText(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -171,9 +176,9 @@ Verified verifyWithWarning(const Problem& problem, const Solution& solution,
     warn(solutionFile + ": it claims a margin of " + shortest(solution.margin) +
          " m; it is verified with the problem's, " + shortest(problem.task.margin) + " m");
   if (report.pathReport.verdict == PathVerdict::proved &&
-      solution.clearance > report.pathReport.provenClearance)
+      solution.clearance > report.pathReport.provedClearance)
     warn(solutionFile + ": it claims a clearance of " + shortest(solution.clearance) + " m; only " +
-         rounded(report.pathReport.provenClearance) + " m is proved");
+         rounded(report.pathReport.provedClearance) + " m is proved");
   if (solution.tube.size() == problem.task.tube.size() &&
       (solution.tube.array() > problem.task.tube.array()).any())
     warn(solutionFile +

@@ -36,6 +36,9 @@ class ResultPrinter {
 /// not UTF-8, for which it has U+FFFD. @param indent  -1: one line
 std::string jsonText(const nlohmann::ordered_json& json, int indent = 2);
 
+/// Returns how far the tested pairs are proved to be apart, in millimetres.
+std::string provedClearanceText(double metres);
+
 /// Inserts `notes` before all notes in `to`.
 inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
   to.insert(to.begin(), notes.begin(), notes.end());

@@ -192,7 +192,7 @@ std::string lineOf(const ordered_json& report) {
   line += ", " + counted(path["states"].get<std::uint64_t>(), "state");
   if (report.contains("clearance")) {
     const auto& clearance = report["clearance"];
-    line += ", clearance " + rounded(1e3 * clearance["proved_m"].get<double>()) + " mm";
+    line += ", clearance " + rounded(1e3 * clearance["proved_clearance_m"].get<double>()) + " mm";
     if (clearance["share_on_target"] < 1)
       line += " (targets kept on " + percent(clearance["share_on_target"]) + " of the length)";
   }
@@ -249,7 +249,8 @@ void printTable(const std::vector<ordered_json>& reports, const ResultPrinter& o
     out.line("  medians", times);
     std::vector<double> proved;
     for (const ordered_json* report : solved)
-      if (report->contains("clearance")) proved.push_back((*report)["clearance"]["proved_m"]);
+      if (report->contains("clearance"))
+        proved.push_back((*report)["clearance"]["proved_clearance_m"]);
     if (!proved.empty())
       out.line("  median clearance", rounded(1e3 * medianOf(proved)) + " mm proved");
   }

@@ -39,10 +39,6 @@ std::array<double, kSolvePhases.size()> secondsOf(const Solved& solved) {
           r.trajectoryTime};
 }
 
-std::string provedText(double metres) {
-  return metres > 0 ? "proved: " + rounded(1e3 * metres) + " mm"
-                    : "free, but no distance is proved";
-}
 std::string reasonOf(WhyOffTarget why) {
   switch (why) {
     case WhyOffTarget::detour:
@@ -60,7 +56,7 @@ std::string reasonOf(WhyOffTarget why) {
 /// Returns the lines of the report about the clearance of the path.
 std::vector<std::string> clearanceLines(const PathClearance& c) {
   std::vector<std::string> lines;
-  lines.push_back(provedText(c.proved));
+  lines.push_back(provedClearanceText(c.proved));
   if (std::isfinite(c.smallestAtEnds))
     lines.back() += " (start and goal themselves: " + rounded(1e3 * c.smallestAtEnds) + " mm)";
   if (!c.a.empty())
@@ -77,13 +73,14 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
 }
 
 ordered_json clearanceJson(const PathClearance& c) {
-  ordered_json j = {{"proved_m", c.proved},
+  ordered_json j = {{"proved_clearance_m", c.proved},
                     {"share_on_target", c.shareOnTarget},
                     {"least_target_m", c.leastTarget}};
   if (c.why != WhyOffTarget::unknown) j["why_off_target"] = nameOf(c.why);
   if (std::isfinite(c.smallestAtEnds)) j["ends_m"] = c.smallestAtEnds;
   if (c.a.empty()) return j;
-  j["closest"] = {{"bodies", {c.a, c.b}}, {"distance_m", c.smallest}, {"edge", c.edge}, {"t", c.t}};
+  j["closest_found_m"] = c.smallest;
+  j["closest"] = {{"bodies", {c.a, c.b}}, {"edge", c.edge}, {"t", c.t}};
   return j;
 }
 
@@ -110,11 +107,14 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
            made.proved() ? Tone::good : Tone::bad);
   if (made.clearance)
     out.line("trajectory clearance",
-             provedText(made.clearance->proved) +
+             provedClearanceText(made.clearance->proved) +
                  "; every pair keeps the preferred distance, as far as start and goal allow, " +
                  (made.clearance->shareOnTarget == 1
                       ? "everywhere"
-                      : "on " + percent(made.clearance->shareOnTarget) + " of the time"));
+                      : "on " + percent(made.clearance->shareOnTarget) + " of the time") +
+                 (made.timeLost.value_or(0) < 0.0005
+                      ? ""
+                      : "; about " + rounded(*made.timeLost) + " s longer because of it"));
   out.line("limits", limitsText(p, made.ratios),
            keepsLimits(made.ratios) ? Tone::plain : Tone::bad);
   for (const std::string& note : p.task.limits.notes) out.line("note", note);
@@ -127,9 +127,11 @@ ordered_json trajectoryJson(const Problem& p, const MadeTrajectory& made) {
                     {"corners", made.corners},         {"corners_rounded", made.rounded},
                     {"why_stops", made.whyStops},      {"curve_tests", made.curveTests},
                     {"stretch", made.stretch},         {"notes", p.task.limits.notes}};
-  if (made.clearance)
-    j["clearance"] = {{"proved_m", made.clearance->proved},
+  if (made.clearance) {
+    j["clearance"] = {{"proved_clearance_m", made.clearance->proved},
                       {"share_on_target", made.clearance->shareOnTarget}};
+    if (made.timeLost) j["clearance"]["time_lost_s"] = *made.timeLost;
+  }
   addLimits(j, made.ratios);
   return j;
 }
@@ -235,7 +237,7 @@ ordered_json jsonOf(const Solved& result, const std::string& problem) {
 }
 
 ordered_json reportJson(const ordered_json& problems) {
-  return {{"format", "corridor-solve-report-1"}, {"problems", problems}};
+  return {{"format", "corridor-solve-report-2"}, {"problems", problems}};
 }
 
 }  // namespace corridor::app

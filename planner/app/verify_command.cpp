@@ -136,7 +136,7 @@ ordered_json jsonOf(const PathFinding& f, const VerifyReport& report) {
 ordered_json jsonOf(const Verified& verified, const Problem& problem, const LeftOut& leftOut,
                     const VerifyArguments& a) {
   const VerifyReport& r = verified.report;
-  ordered_json j = {{"format", "corridor-verify-report-3"},
+  ordered_json j = {{"format", "corridor-verify-report-4"},
                     {"problem", a.problem},
                     {"solution", a.solution},
                     {"verdict", verdictName(r)},
@@ -148,8 +148,8 @@ ordered_json jsonOf(const Verified& verified, const Problem& problem, const Left
                     {"warnings", verified.warnings},
                     {"edges", r.pathReport.edges},
                     {"edges_proved", r.pathReport.edgesProved},
-                    {"proven_clearance_m", numberJson(r.pathReport.provenClearance)},
-                    {"smallest_distance_met_m", numberJson(r.pathReport.smallestDistanceMet)},
+                    {"proved_clearance_m", numberJson(r.pathReport.provedClearance)},
+                    {"closest_found_m", numberJson(r.pathReport.closestFound)},
                     {"margin_m", r.margin},
                     {"tube", tubeJson(problem.model.space, r.tube)},
                     {"numbers", problem.model.space.numberNames()},
@@ -186,9 +186,9 @@ void print(const VerifyReport& r, const Problem& problem, const LeftOut& leftOut
   if (r.pathReport.verdict == PathVerdict::proved)
     out.line("clearance", nothingIsTested(problem)
                               ? "none: no pair is tested"
-                              : "at least " + rounded(r.pathReport.provenClearance) +
-                                    " m, at most " + rounded(r.pathReport.smallestDistanceMet) +
-                                    " m");
+                              : provedClearanceText(r.pathReport.provedClearance) +
+                                    "; closest found: " + rounded(1e3 * r.pathReport.closestFound) +
+                                    " mm");
   const double beyond = problem.task.padding.beyond.largest();
   if (r.margin > 0 || beyond > 0)
     out.line("margin",

@@ -196,9 +196,9 @@ void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run) {
   run.verificationTime = clock.seconds();
   run.verdict = verdictName(report);
   if (report.verdict != PathVerdict::proved) run.finding = firstFinding(report);
-  if (std::isfinite(report.pathReport.smallestDistanceMet)) {
-    run.provenClearance = report.pathReport.provenClearance;
-    run.leastDistance = report.pathReport.smallestDistanceMet;
+  if (std::isfinite(report.pathReport.closestFound)) {
+    run.provedClearance = report.pathReport.provedClearance;
+    run.closestFound = report.pathReport.closestFound;
   }
 }
 

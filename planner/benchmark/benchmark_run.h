@@ -48,10 +48,10 @@ struct BenchmarkRun {
   /// One line: the verifier's first finding. Empty if the path is proved or was not verified.
   std::string finding;
   /// Computed by the verifier, in metres, without subtracting the margin. The whole path, tube
-  /// included, is proved to keep a distance of at least `provenClearance`. `leastDistance` is the
+  /// included, is proved to keep a distance of at least `provedClearance`. `closestFound` is the
   /// least distance of a tested pair at the poses that the verifier tested. Both are −1 if no pair
   /// was tested, or the path was not verified.
-  double provenClearance = -1, leastDistance = -1;
+  double provedClearance = -1, closestFound = -1;
 
   /// Times of everything that `corridor solve` does except reading files; see SolveReport. `time`
   /// is the sum of setUpTime, plannerTime, simplificationTime and certificationTime.
@@ -107,7 +107,7 @@ BenchmarkRun runUnderOmpl(const Problem& planned, const std::string& digest,
                           Path& path);
 
 /// Verifies a run's path with the independent verifier: sets verdict, finding, verificationTime,
-/// provenClearance and leastDistance.
+/// provedClearance and closestFound.
 /// @param problem the problem as its file has it, without the variant, so that all variants are
 /// verified alike.
 void verifyRun(const Problem& problem, const Path& path, BenchmarkRun& run);

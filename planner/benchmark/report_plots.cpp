@@ -309,9 +309,9 @@ Plot clearances(const Campaign& campaign, const std::vector<CampaignCell>& cells
   for (std::size_t v = 0; v < all.size(); ++v)
     forCells(cells, problem, v, [&](const CampaignCell& cell) {
       for (const BenchmarkRun& run : cell.runs)
-        if (run.leastDistance >= 0) {
-          all[v].push_back(run.leastDistance);
-          distances.push_back(run.leastDistance);
+        if (run.closestFound >= 0) {
+          all[v].push_back(run.closestFound);
+          distances.push_back(run.closestFound);
         }
     });
   plot.rangeX = decades(distances);

@@ -96,8 +96,8 @@ Row runRow(const Campaign& campaign, const CampaignCell& cell, const BenchmarkRu
   count("edges_undecided", counts ? RowValue{run.counters.undecided} : RowValue{});
   count("box_tests", counts ? RowValue{run.counters.boxTests} : RowValue{});
   count("triangle_tests", counts ? RowValue{run.counters.primitiveTests} : RowValue{});
-  ofPath("proven_clearance_m", lengthOrNothing(run.provenClearance));
-  ofPath("least_distance_m", lengthOrNothing(run.leastDistance));
+  ofPath("proved_clearance_m", lengthOrNothing(run.provedClearance));
+  ofPath("closest_found_m", lengthOrNothing(run.closestFound));
   ofPath("raw_states", std::uint64_t{run.rawStates});
   ofPath("raw_length_m", run.rawLength.metres);
   ofPath("raw_rotation_rad", run.rawLength.radians);
@@ -163,8 +163,8 @@ Row pathSummaryRow(const Campaign& campaign, const CampaignCell& cell) {
   });
   std::vector<double> distances;
   for (const Run& run : cell.runs)
-    if (run.solved && run.leastDistance >= 0) distances.push_back(run.leastDistance);
-  row.emplace_back("least_distance_m", numberOrNothing(medianOf(distances)));
+    if (run.solved && run.closestFound >= 0) distances.push_back(run.closestFound);
+  row.emplace_back("closest_found_m", numberOrNothing(medianOf(distances)));
   median("raw_length_m", [](const Run& r) { return r.rawLength.metres; });
   median("raw_rotation_rad", [](const Run& r) { return r.rawLength.radians; });
   median("length_m", [](const Run& r) { return r.length.metres; });

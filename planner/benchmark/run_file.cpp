@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr const char* kRunsFormat = "corridor-runs-1";
+constexpr const char* kRunsFormat = "corridor-runs-2";
 constexpr const char* kKept = "finished runs are kept; continue with --resume";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why, int line = 0) {

@@ -24,7 +24,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathLength, metres, radians)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OmplRecord, planner, setup, host, cpu, settings, properties,
                                    progressNames, progress)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BenchmarkRun, seed, failure, result, why, solved, certified,
-                                   verdict, finding, provenClearance, leastDistance, time,
+                                   verdict, finding, provedClearance, closestFound, time,
                                    processorTime, setUpTime, plannerTime, simplificationTime,
                                    certificationTime, checkingTime, searchProcessorTime,
                                    verificationTime, states, edges, counters, rawStates, pathStates,

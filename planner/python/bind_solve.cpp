@@ -68,10 +68,14 @@ py::dict trajectoryDict(const MadeTrajectory& made) {
   d["why_none"] = made.fault;
   if (!made.fault.empty()) return d;
   if (made.proved()) d["text"] = made.text;
-  d["duration"] = made.duration;
+  d["duration_s"] = made.duration;
   d["proved"] = made.proved();
   d["keeps_limits"] = keepsLimits(made.ratios);
   d["proved_clearance_m"] = made.clearance ? py::cast(made.clearance->proved) : py::none();
+  if (made.clearance) {
+    d["share_on_target"] = made.clearance->shareOnTarget;
+    d["time_lost_s"] = made.timeLost ? py::object(py::cast(*made.timeLost)) : py::none();
+  }
   return d;
 }
 
@@ -112,15 +116,17 @@ py::dict solve(const NativeProblem& native, const std::optional<std::string>& tr
   d["checker"] = r.checker;
   d["seed"] = r.seed;
   d["repeats"] = r.repeatable;
-  d["seconds"] = r.time;
-  d["planning_seconds"] = r.planningTime;
-  d["certification_seconds"] = r.certificationTime;
-  d["states_tested"] = r.counters.states;
-  d["edges_tested"] = r.counters.edges;
+  d["time_s"] = r.time;
+  d["planning_time_s"] = r.planningTime;
+  d["certify_s"] = r.certificationTime;
+  d["states_checked"] = r.counters.states;
+  d["edges_checked"] = r.counters.edges;
   d["length_m"] = r.length.metres;
-  d["length_rad"] = r.length.radians;
+  d["rotation_rad"] = r.length.radians;
   d["proved_clearance_m"] = r.clearance ? py::cast(r.clearance->proved) : py::none();
   if (r.clearance) {
+    d["closest_found_m"] =
+        r.clearance->a.empty() ? py::none() : py::object(py::cast(r.clearance->smallest));
     d["share_on_target"] = r.clearance->shareOnTarget;
     d["why_off_target"] = nameOf(r.clearance->why);
   }
@@ -140,7 +146,8 @@ py::dict reportDict(const Problem& problem, const VerifyReport& report, const Le
   d["verdict"] = verdictName(report);
   d["left_out"] = leftOutList(problem.model, leftOut);
   d["not_tested"] = reasonGroups(leftOut);
-  d["clearance_m"] = report.pathReport.provenClearance;
+  d["proved_clearance_m"] = report.pathReport.provedClearance;
+  d["closest_found_m"] = report.pathReport.closestFound;
   d["edges"] = report.pathReport.edges;
   d["edges_proved"] = report.pathReport.edgesProved;
   d["violations"] = report.violations;

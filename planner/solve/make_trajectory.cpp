@@ -99,15 +99,20 @@ Wanted wantedOn(const Path& path, const CurveClearance* clearance) {
 }
 
 /// Makes the curve that the trajectory passes along, and counts its corners and tests.
+/// @param refuses is set if a free piece was refused because it misses clearance targets
 LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Path& path,
                         const Wanted& wanted, const std::function<bool()>& stop,
-                        MadeTrajectory& made) {
+                        MadeTrajectory& made, bool& refuses) {
   const ConfigurationSpace& space = problem.model.space;
   SmoothOptions options = smoothOptions(space, problem.task.limits, problem.settings.trajectory);
   options.fractions = wanted.fractions;
   const CurveTest isFree = [&](const CurvePiece& piece, double fraction) {
-    return wanted.clearance ? wanted.clearance->isKept(piece, fraction)
-                            : checker.certifyCurve(piece).verdict == MotionVerdict::free;
+    if (wanted.clearance && wanted.clearance->isKept(piece, fraction)) return true;
+    if (wanted.clearance && refuses) return false;
+    const bool free = checker.certifyCurve(piece).verdict == MotionVerdict::free;
+    if (!wanted.clearance) return free;
+    refuses = free;
+    return false;
   };
   SmoothPath smooth = smoothedPath(space, path, isFree, options, stop);
   made.corners = smooth.corners;
@@ -276,17 +281,14 @@ double leastTimeWithStops(const Problem& problem, const std::vector<CurvePiece>&
   return law.fault.empty() ? law.duration : 0;
 }
 
-}  // namespace
-
-MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& along,
-                              TrajectoryFileKind kind, const std::function<bool()>& stop,
-                              const CurveClearance* clearance) {
+/// Steps 1 to 5 of `makeTrajectory`, for a path without still edges.
+/// @param refuses as for `smoothCurve`
+MadeTrajectory fastestAlong(const Problem& problem, const Checker& checker, const Path& path,
+                            const Wanted& wanted, TrajectoryFileKind kind,
+                            const std::function<bool()>& stop, bool& refuses) {
   const ConfigurationSpace& space = problem.model.space;
-  const Path path = withoutStillEdges(space, along);
-  const Wanted wanted = wantedOn(path, clearance);
-  if (isStill(space, path)) return standing(problem, checker, wanted, path, kind);
   MadeTrajectory begun;
-  LawfulCurve smooth = smoothCurve(problem, checker, path, wanted, stop, begun);
+  LawfulCurve smooth = smoothCurve(problem, checker, path, wanted, stop, begun, refuses);
   MadeTrajectory made =
       provedAlong(problem, checker, wanted, std::move(smooth), kind, kTrajectoryAttempts, begun);
   if (begun.rounded + begun.replaced == 0 || !begun.fault.empty()) return made;
@@ -308,6 +310,27 @@ MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, co
                       : made.fault.empty()  ? "the rounded path is not proved"
                                             : "the rounded path has no trajectory: " + made.fault;
   return stopping;
+}
+
+}  // namespace
+
+MadeTrajectory makeTrajectory(const Problem& problem, const Checker& checker, const Path& along,
+                              TrajectoryFileKind kind, const std::function<bool()>& stop,
+                              const CurveClearance* clearance) {
+  const Path path = withoutStillEdges(problem.model.space, along);
+  const Wanted wanted = wantedOn(path, clearance);
+  if (isStill(problem.model.space, path)) return standing(problem, checker, wanted, path, kind);
+  bool refuses = false;
+  MadeTrajectory made = fastestAlong(problem, checker, path, wanted, kind, stop, refuses);
+  if (!made.clearance) return made;
+  if (!refuses) {
+    made.timeLost = 0;
+    return made;
+  }
+  MadeTrajectory closer;
+  const LawfulCurve curve = smoothCurve(problem, checker, path, {}, stop, closer, refuses);
+  if (curve.law.fault.empty() && !stop()) made.timeLost = made.duration - curve.law.duration;
+  return made;
 }
 
 MadeTrajectory trajectoryAlong(const Problem& problem, const Checker& checker,

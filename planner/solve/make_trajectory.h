@@ -35,6 +35,10 @@ struct MadeTrajectory {
   std::size_t failedPiece = 0;  ///< if there is no proof: index into curve.pieces
   /// The clearance of `curve`; set if it is proved, and `makeTrajectory` got targets.
   std::optional<CurveProof> clearance;
+  /// Seconds by which this trajectory is longer than the law along the curve that is made without
+  /// clearance targets; 0 if the targets changed nothing. It can be negative: smoothing is a
+  /// heuristic. Not set without `clearance`, or if time ran out.
+  std::optional<double> timeLost;
   /// Whether the curve misses targets, although the path keeps all; or its proved clearance is less
   /// than the path's.
   bool losesClearance = false;

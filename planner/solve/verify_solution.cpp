@@ -310,16 +310,16 @@ namespace {
 /// @param verify verifies the path or curve of the report.
 void proveClaim(PathProblem plain, double claim,
                 const std::function<PathReport(const PathProblem&)>& verify, PathReport& report) {
-  if (report.verdict != PathVerdict::proved || !(claim > report.provenClearance) ||
-      !(claim < report.smallestDistanceMet))
+  if (report.verdict != PathVerdict::proved || !(claim > report.provedClearance) ||
+      !(claim < report.closestFound))
     return;
   plain.margin = claim;
   plain.heldPairs.clear();
   for (VerifyPair& pair : plain.pairs) pair.padding = 0;
   const PathReport claimed = verify(plain);
   report.distanceQueries += claimed.distanceQueries;
-  if (claimed.verdict == PathVerdict::proved) report.provenClearance = claimed.provenClearance;
-  report.smallestDistanceMet = std::min(report.smallestDistanceMet, claimed.smallestDistanceMet);
+  if (claimed.verdict == PathVerdict::proved) report.provedClearance = claimed.provedClearance;
+  report.closestFound = std::min(report.closestFound, claimed.closestFound);
 }
 
 }  // namespace

@@ -349,9 +349,9 @@ PathReport Verifier::report() const {
     Real least = single_ ? leastAtStates_ : usefulBound();
     if (!proved_.empty()) least = std::min(least, proved_.top().bound);
     least = std::max<Real>(least, problem_.margin);
-    report.provenClearance = static_cast<double>(least);
-    if (report.provenClearance > least)  // the conversion rounded up
-      report.provenClearance = std::nextafter(report.provenClearance, 0);
+    report.provedClearance = static_cast<double>(least);
+    if (report.provedClearance > least)  // the conversion rounded up
+      report.provedClearance = std::nextafter(report.provedClearance, 0);
   }
   const auto include = [&](const PathFinding& finding) {
     if (finding.verdict == PathVerdict::refuted) report.verdict = PathVerdict::refuted;
@@ -360,7 +360,7 @@ PathReport Verifier::report() const {
   };
   for (const PathFinding& finding : heldFindings_) include(finding);
   for (const auto& [edge, finding] : findings_) include(finding);
-  report.smallestDistanceMet = static_cast<double>(smallest_);
+  report.closestFound = static_cast<double>(smallest_);
   report.distanceQueries = queries_ + (prover_.allPairs() - prover_.pairs());
   return report;
 }

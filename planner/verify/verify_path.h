@@ -72,7 +72,7 @@ struct PathProblem {
   std::vector<VerifyPair> pairs;
   /// Pairs of bodies that never move relative to each other: no joint that moves is between their
   /// frames. They are tested once, at the first state, and this decides them for every state.
-  /// `provenClearance` and `smallestDistanceMet` are about `pairs` only.
+  /// `provedClearance` and `closestFound` are about `pairs` only.
   std::vector<VerifyPair> heldPairs;
   /// The values of each number of a configuration, inclusive, for which bodies that are in no pair
   /// are proved apart by other means (planner/model/pair_proofs.h); infinite where it does not
@@ -80,7 +80,7 @@ struct PathProblem {
   /// refuted. Empty: no limit.
   Configuration provedLower, provedUpper;
   double margin = 0;  ///< metres; a clearance of at most margin + padding is a violation
-  /// Metres. `PathReport::provenClearance` is refined until it reaches this value, if the path may
+  /// Metres. `PathReport::provedClearance` is refined until it reaches this value, if the path may
   /// have such a clearance. It does not change the verdict.
   double wantedClearance = 0;
   Configuration tube;    ///< the proof holds for all curves in the tube (planner/model/task.h)
@@ -156,13 +156,13 @@ struct PathReport {
   /// Metres. If the path is proved, the bodies of `pairs` keep at least this distance on every
   /// curve in the tube. If the path is not proved, the value is 0. If no pair is tested, it is
   /// infinite. The value is refined until one of three conditions holds:
-  /// - It reaches 90 % of the difference between `smallestDistanceMet` and the displacement by the
+  /// - It reaches 90 % of the difference between `closestFound` and the displacement by the
   ///   tube; and also `PathProblem::wantedClearance`, if this is below the difference.
   /// - The motion bound of the worst interval is below the tolerance.
   /// - A limit of queries is reached.
-  double provenClearance = 0;
+  double provedClearance = 0;
   /// Metres: the smallest distance found at the tested poses. The path's clearance is at most this.
-  double smallestDistanceMet = std::numeric_limits<double>::infinity();
+  double closestFound = std::numeric_limits<double>::infinity();
   std::uint64_t distanceQueries = 0;
 };
 

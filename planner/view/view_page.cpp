@@ -212,8 +212,8 @@ class PageData {
     if (r.verdict == PathVerdict::proved && !r.otherProblem)
       verdict["except"] = exceptText(problem_.model, leftOut);
     if (r.pathReport.verdict == PathVerdict::proved) {
-      verdict["clearance_m"] = r.pathReport.provenClearance;
-      verdict["distance_met_m"] = r.pathReport.smallestDistanceMet;
+      verdict["proved_clearance_m"] = r.pathReport.provedClearance;
+      verdict["closest_found_m"] = r.pathReport.closestFound;
     }
     if (r.limits)
       verdict["limits"] = {{"verdict", limitsVerdict(*r.limits)}, {"text", path_->limitsText}};

@@ -98,7 +98,7 @@ class SimulatedRuns {
                         150e-9 * static_cast<double>(run.counters.primitiveTests)) *
                        noise(random);
     run.time = run.processorTime = run.checkingTime * (1.2 + 2 * share(random));
-    run.leastDistance = 0.02 * spread(random);
+    run.closestFound = 0.02 * spread(random);
     run.length.metres = 4 + share(random);
     run.rawLength.metres = run.length.metres * (1 + share(random));
     const double end = share(random);
@@ -114,13 +114,13 @@ class SimulatedRuns {
                 std::to_string(run.states) + " states";
       run.solved = run.certified = false;
       run.verdict.clear();
-      run.leastDistance = run.provenClearance = -1;
+      run.closestFound = run.provedClearance = -1;
     } else {
       run.result = "solved";
       run.solved = true;
       run.verdict = cell.variant > 0 && share(random) < 0.2 ? "refuted" : "proved";
       if (run.verdict == "refuted") {
-        run.leastDistance = 0;
+        run.closestFound = 0;
         run.finding = "contact: cube and wall at edge 3, between its states 12 and 13, at " +
                       std::to_string(share(random)) + " of the edge";
       }

@@ -204,8 +204,8 @@ TEST_P(Threads, Verifier) {
     for (const Edge& edge : edges) {
       const PathReport report = verifyPath(plain, {edge.from, edge.to});
       answers.addVerdict(report.verdict);
-      answers.add(report.provenClearance);
-      answers.add(report.smallestDistanceMet);
+      answers.add(report.provedClearance);
+      answers.add(report.closestFound);
       answers.add(report.distanceQueries);
     }
     return answers;

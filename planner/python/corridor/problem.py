@@ -312,12 +312,14 @@ class Solution:
     why: str  #: why the problem is not solved, one line; empty if solved
     path: NDArray[np.float64]  #: N×J states; empty unless solved
     certified: bool  #: every edge of `path` is proved, for all pairs except `left_out`
-    #: times, lengths and counts. `proved_clearance_m` is at most the preferred clearance; `verify` may prove more.
+    #: times, lengths and counts, by their names in the report of `corridor solve --json`. `proved_clearance_m` is at
+    #: most the preferred clearance; `verify` may prove more. `closest_found_m`: the smallest distance that was found.
     #: `share_on_target`: the fraction of the path's length on which every pair keeps its target; `why_off_target`: why
     #: it is below 1: "detour", "not found" or "time"
     figures: dict[str, Any] = field(default_factory=dict)
-    #: `text`, `duration`, `proved`, `keeps_limits`, `proved_clearance_m`, `why_none`. Empty if `solve` was called
-    #: without `trajectory`, or if the problem is not solved
+    #: `text`, `duration_s`, `proved`, `keeps_limits`, `proved_clearance_m`, `share_on_target`, `time_lost_s` (what
+    #: the clearance costs), `why_none`. Empty if `solve` was called without `trajectory`, or if the problem is not
+    #: solved
     trajectory: dict[str, Any] = field(default_factory=_NoTrajectory)
     #: pairs that no proof covers: names of the two bodies, and "touch at rest", "within the margin at rest", "allow" or
     #: "allowed_collision_matrix". At least one body of each pair is an obstacle, or they belong to two robots
@@ -338,8 +340,8 @@ class Solution:
             raise ValueError(f"there is no path: {self.why or self.outcome}")
 
     def verify(self) -> dict[str, Any]:
-        """Verifies the path by the independent verifier. Returns `verdict`, `findings`, `clearance_m`,
-        `left_out` (as `Solution.left_out`), `not_tested` (the number of pairs that are not tested, by reason), ..."""
+        """Verifies the path by the independent verifier. Returns `verdict`, `findings`,
+        `proved_clearance_m`, `closest_found_m`, `left_out` (as `Solution.left_out`), `not_tested` (the number of pairs that are not tested, by reason), ..."""
         self._require_path()
         return _native.verify_path(self.problem._native, self.path, self.figures.get("proved_clearance_m") or 0.0)
 

@@ -98,7 +98,7 @@ class DistanceChart extends Chart {
    * the scale.
    */
   draw(decades) {
-    const {closest, right, top, bottom} = this, margin = data.solution.margin_m, proved = data.verdict.clearance_m;
+    const {closest, right, top, bottom} = this, margin = data.solution.margin_m, proved = data.verdict.proved_clearance_m;
     const most = closest.metres.reduce((a, b) => Math.max(a, b), 2 * margin) || 1;
     const least = closest.metres.reduce((a, b) => b > 0 ? Math.min(a, b) : a, most);
     const lowest = 10 ** Math.floor(Math.log10(least) - 1e-9), highest = 10 ** Math.ceil(Math.log10(most) + 1e-9);

@@ -24,7 +24,7 @@ const Panel = {
       if (s.between) facts.push(['Between rows', s.between]);
       facts.push([s.between ? 'Rows' : 'States', s.states.toLocaleString('en')]);
       if (v.verdict !== 'other problem') facts.push(['Edges proved', `${v.edges_proved.toLocaleString('en')} of ${v.edges.toLocaleString('en')}`]);
-      if (v.clearance_m !== undefined && v.clearance_m !== null) facts.push(['Clearance', `at least ${metres(v.clearance_m)}`]);
+      if (v.proved_clearance_m !== undefined && v.proved_clearance_m !== null) facts.push(['Proved clearance', `${metres(v.proved_clearance_m)}`]);
       if (v.limits) facts.push(['Limits', v.limits.text]);
     }
     if (s && s.margin_m > 0) facts.push(['Margin', metres(s.margin_m)]);

@@ -224,7 +224,7 @@ TEST_F(CampaignCommand, BadInputIsOneLine) {
                         "results/runs.jsonl: is not of this campaign: it has runs of ");
   write("results/runs.jsonl", "no runs\n");
   expectFault("benchmark campaign.yaml -o results --resume",
-              "results/runs.jsonl: is not a file of runs (corridor-runs-1)");
+              "results/runs.jsonl: is not a file of runs (corridor-runs-2)");
   std::filesystem::remove(folder_ / "results/runs.jsonl");
   write("results/campaign.db",
         "not a database, but long enough to be looked at as if it were one, "

@@ -186,7 +186,7 @@ TEST_F(CampaignMerge, BadInputIsOneLine) {
               "./runs.jsonl: there is no such file; a folder of results, or its runs.jsonl, is "
               "needed");
   expectFault("benchmark --merge s1 hall.yaml -o m",
-              "hall.yaml: is not a file of runs (corridor-runs-1)");
+              "hall.yaml: is not a file of runs (corridor-runs-2)");
   expectFault("benchmark --merge s1 s2 --runs 3 -o m",
               "--runs excludes --merge; see corridor benchmark --help");
   expectFault("benchmark --merge s1 s2 -o s1",

@@ -38,7 +38,7 @@ TEST_F(CommandLine, ReportsWrappedAngles) {
 
 TEST_F(CommandLine, JsonIsVersionedAndComplete) {
   const auto solved = nlohmann::json::parse(run("solve problem.yaml --json -o s.yaml").out);
-  EXPECT_EQ(solved["format"], "corridor-solve-report-1");
+  EXPECT_EQ(solved["format"], "corridor-solve-report-2");
   EXPECT_EQ(solved["problems"][0]["result"], "solved");
   EXPECT_EQ(solved["problems"][0]["certified"], true);
   EXPECT_EQ(nlohmann::json::parse(run("verify problem.yaml s.yaml --json").out)["verdict"],

@@ -80,10 +80,10 @@ TEST_F(NothingTested, ClearanceIsNotPrintedAsANumber) {
   EXPECT_THAT(text.out, HasSubstr("note: " + kNothing));
   EXPECT_EQ(text.out.find("inf"), std::string::npos) << text.out;
   const json report = json::parse(run("verify alone.yaml turn.yaml --json").out);
-  EXPECT_EQ(report["proven_clearance_m"], nullptr);
-  EXPECT_EQ(report["smallest_distance_met_m"], nullptr);
+  EXPECT_EQ(report["proved_clearance_m"], nullptr);
+  EXPECT_EQ(report["closest_found_m"], nullptr);
   const json campaign = json::parse(run("benchmark alone.yaml --runs 1 --json").out);
-  EXPECT_EQ(campaign["results"][0]["rows"][0]["proven_clearance_m"], nullptr);
+  EXPECT_EQ(campaign["results"][0]["rows"][0]["proved_clearance_m"], nullptr);
 }
 
 /// It does not matter why no pair is tested: here an `allow` excludes the only pair.

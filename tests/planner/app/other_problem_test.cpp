@@ -43,7 +43,7 @@ TEST_F(OtherProblem, IsNotProved) {
   const Result asJson = run("verify hall.yaml s.yaml --json");
   EXPECT_EQ(asJson.status, 1);
   const json report = json::parse(asJson.out);
-  EXPECT_EQ(report["format"], "corridor-verify-report-3");
+  EXPECT_EQ(report["format"], "corridor-verify-report-4");
   EXPECT_EQ(report["verdict"], "other problem");
   EXPECT_EQ(report["digest"], "differs");
   EXPECT_EQ(report["edges_proved"], 0);

@@ -28,7 +28,7 @@ TEST_F(SolveCommand, SolveThenVerify) {
   const Result verified = run("verify problem.yaml s.yaml");
   EXPECT_EQ(verified.status, 0) << verified.err << verified.out;
   EXPECT_THAT(verified.out, HasSubstr("verdict: proved\n"));
-  EXPECT_THAT(verified.out, HasSubstr("clearance: at least "));
+  EXPECT_THAT(verified.out, HasSubstr("clearance: proved: "));
 }
 
 TEST_F(SolveArm, SolveThenVerify) {
@@ -118,7 +118,7 @@ TEST_F(SolveArm, WritesATrajectory) {
   const Result solved = run("solve arm.yaml --trajectory t.csv --rate 100 --json");
   const auto report = nlohmann::json::parse(solved.out)["problems"][0]["trajectory"];
   EXPECT_EQ(report["clearance"]["share_on_target"], 1);
-  EXPECT_GT(report["clearance"]["proved_m"], 0);
+  EXPECT_GT(report["clearance"]["proved_clearance_m"], 0);
   EXPECT_EQ(report["proved"], true);
   EXPECT_EQ(report["limits"], "kept");
   EXPECT_GE(report["rows"].get<double>(), 100 * report["duration_s"].get<double>());
@@ -160,14 +160,14 @@ TEST_F(SolveArm, KeepsItsDistance) {
   ASSERT_EQ(solved.status, 0) << solved.err;
   const auto report = nlohmann::json::parse(solved.out)["problems"][0];
   const auto clearance = report["clearance"];
-  const double proved = clearance["proved_m"];
+  const double proved = clearance["proved_clearance_m"];
   EXPECT_GT(proved, 0);
   EXPECT_LE(proved, 0.005);
   EXPECT_GT(clearance["share_on_target"], 0.5);
   EXPECT_THAT(read("s.yaml"), testing::ContainsRegex("\nclearance: 0\\.00[0-9]*  # m\n"));
   const Result verified = run("verify arm.yaml s.yaml --json");
   EXPECT_EQ(verified.err, "");  // no warning: the clearance is proved
-  EXPECT_GE(nlohmann::json::parse(verified.out)["proven_clearance_m"], proved);
+  EXPECT_GE(nlohmann::json::parse(verified.out)["proved_clearance_m"], proved);
   // If the file claims a larger clearance, it is not proved.
   std::string text = read("s.yaml");
   text.replace(text.find("\nclearance: "), 12, "\nclearance: 9");

@@ -106,7 +106,7 @@ TEST_F(SolveMany, ARangeOfASet) {
   const Result result = run("solve set.json#1-3 -o out --picture pictures --jobs 2 --json");
   ASSERT_EQ(result.status, 0) << result.err;
   const json report = json::parse(result.out);
-  EXPECT_EQ(report["format"], "corridor-solve-report-1");
+  EXPECT_EQ(report["format"], "corridor-solve-report-2");
   ASSERT_EQ(report["problems"].size(), 3u);
   for (int i = 0; i < 3;
        ++i) {  // results are in the order of the problems, whichever was solved first
@@ -268,7 +268,7 @@ TEST_F(SolveMany, TriesKeepTheShortestOrTheClearest) {
                            b[1].get<double>() - a[1].get<double>());
     }
     if (length < shortest) shortest = length;
-    clearest = std::max(clearest, one["clearance"]["proved_m"].get<double>());
+    clearest = std::max(clearest, one["clearance"]["proved_clearance_m"].get<double>());
   }
   const auto kept = [&](const std::string& options) {
     return json::parse(
@@ -283,7 +283,7 @@ TEST_F(SolveMany, TriesKeepTheShortestOrTheClearest) {
                          b[1].get<double>() - a[1].get<double>());
   }
   EXPECT_EQ(length, shortest);
-  EXPECT_EQ(clear["clearance"]["proved_m"], clearest);
+  EXPECT_EQ(clear["clearance"]["proved_clearance_m"], clearest);
   // A new call with the reported seed must give the same path.
   const json again =
       json::parse(run("solve arm.yaml --json --seed " + std::to_string(best["seed"].get<int>()))

@@ -328,7 +328,7 @@ TEST_F(HallWithTrajectories, CampaignsWithoutTrajectoriesAreUnchanged) {
             "problem,variant,planner,seed,result,certified,verdict,time_s,processor_s,"
             "search_processor_s,set_up_s,planner_s,simplification_s,certification_s,checking_s,"
             "verification_s,states,edges,edges_undecided,box_tests,triangle_tests,"
-            "proven_clearance_m,least_distance_m,raw_states,raw_length_m,raw_rotation_rad,"
+            "proved_clearance_m,closest_found_m,raw_states,raw_length_m,raw_rotation_rad,"
             "path_states,length_m,rotation_rad,why,finding,failure");
   writeReport(c, result.cells, folder_);
   EXPECT_THAT(test::contents(folder_ / "report.html"), Not(HasSubstr("id=\"trajectories\"")));

@@ -42,7 +42,7 @@ class MadeCampaign : public testing::Test {
     run.processorTime = run.time = 0.1 * static_cast<double>(seed) * factor;
     const bool refuted = cell.variant == 1 ? seed > 5 : cell.variant == 2 && seed == 10;
     run.verdict = refuted ? "refuted" : "proved";
-    run.leastDistance = refuted ? 0 : 0.01 * static_cast<double>(seed);
+    run.closestFound = refuted ? 0 : 0.01 * static_cast<double>(seed);
     run.counters.boxTests = 1000 * seed;
     run.counters.primitiveTests = 10 * seed * seed;
     // 100 ns per box test, 1000 ns per pair of triangles.

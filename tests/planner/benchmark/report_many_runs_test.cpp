@@ -33,8 +33,8 @@ TEST_F(ManyRuns, CurvesOfManyRunsAreDrawnWithFewSteps) {
     for (std::size_t i = 0; i < runs; ++i) {
       BenchmarkRun one = run(cell, i + 1);
       one.verdict = "proved";
-      one.leastDistance = i % 7 ? times(random) : 0.25;  // some values are equal
-      all.push_back(one.leastDistance);
+      one.closestFound = i % 7 ? times(random) : 0.25;  // some values are equal
+      all.push_back(one.closestFound);
       cell.runs.push_back(one);
     }
     std::sort(all.begin(), all.end());

@@ -116,7 +116,7 @@ TEST_F(Report, PlannersAreRanked) {
 TEST_F(Report, UnverifiedPathsAreNotPlotted) {
   campaign_.verify = false;
   for (CampaignCell& cell : cells_)
-    for (BenchmarkRun& run : cell.runs) run.verdict.clear(), run.leastDistance = -1;
+    for (BenchmarkRun& run : cell.runs) run.verdict.clear(), run.closestFound = -1;
   const std::string text = page();
   EXPECT_THAT(text, HasSubstr("<p>Paths were not verified.</p>"));
   EXPECT_THAT(text, Not(HasSubstr("no data")));
@@ -368,7 +368,7 @@ TEST_F(Report, HostileNames) {
 /// All clearances are equal: the plot's range must still span a decade.
 TEST_F(Report, EqualValuesSpanADecade) {
   for (CampaignCell& cell : cells_)
-    for (BenchmarkRun& run : cell.runs) run.leastDistance = run.processorTime = 1;
+    for (BenchmarkRun& run : cell.runs) run.closestFound = run.processorTime = 1;
   for (const Plot& plot :
        {clearances(campaign_, cells_, 0), solvedOverTime(campaign_, cells_, 0)}) {
     ASSERT_TRUE(plot.rangeX);

@@ -54,7 +54,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
     run.edges = i + 1;
     run.counters.boxTests = 10 * (i + 1);
     run.counters.undecided = 1;
-    run.leastDistance = i == 1 ? -1 : 0.1 * static_cast<double>(i);  // -1: no obstacle
+    run.closestFound = i == 1 ? -1 : 0.1 * static_cast<double>(i);  // -1: no obstacle
     run.rawLength = {2.0 * static_cast<double>(i), 1};
   }
   cell.runs[0].verdict = cell.runs[1].verdict = "proved";
@@ -65,7 +65,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
             "problem,variant,planner,runs,failed,solved,certified,proved,refuted,undecided,time_s,"
             "time_p95_s,processor_s,search_processor_s,checking_share,states,edges,edges_undecided,"
             "box_tests,"
-            "triangle_tests,least_distance_m,raw_length_m,raw_rotation_rad,length_m,rotation_rad\n"
+            "triangle_tests,closest_found_m,raw_length_m,raw_rotation_rad,length_m,rotation_rad\n"
             "p,certified,RRT,6,1,4,3,2,1,1,2.5,4,0,0.25,0.5,250,2.5,6,25,0,0.2,3,1,0,0\n");
   // Values that a run doesn't have are empty.
   const auto value = [&](std::size_t run, const std::string& name) {
@@ -75,7 +75,7 @@ TEST(Rows, SummaryOfRunsThatEndedInAllWays) {
   };
   EXPECT_EQ(value(3, "verdict"), RowValue{"refuted"});
   EXPECT_EQ(value(4, "verdict"), RowValue{});
-  EXPECT_EQ(value(1, "least_distance_m"), RowValue{});
+  EXPECT_EQ(value(1, "closest_found_m"), RowValue{});
   EXPECT_EQ(value(3, "raw_length_m"), RowValue{6.0});
   EXPECT_EQ(value(4, "raw_length_m"), RowValue{});
   EXPECT_EQ(value(4, "time_s"), RowValue{100.0});

@@ -88,10 +88,10 @@ TEST_F(StoredRuns, DamagedLinesAreReported) {
             "has a run that is there already: seed 1 of hall, certified, RRTConnect; name each "
             "folder once, or repeat one with another --seed");
   std::string next = whole;
-  next.replace(next.find("runs-1"), 6, "runs-2");
+  next.replace(next.find("runs-2"), 6, "runs-9");
   std::ofstream(file_) << next;
   EXPECT_EQ(complaint(Mode::resume, campaign),
-            "its format is corridor-runs-2; this program reads corridor-runs-1");
+            "its format is corridor-runs-9; this program reads corridor-runs-2");
 }
 
 /// A cell without runs holds no measurement, so its settings may still change.
@@ -299,7 +299,7 @@ TEST_F(StoredRuns, ForeignFiles) {
   for (const char* text : {"a text", "a text\n", "\n", "{}\n{}\n", "{\"cell\":0}\n"})
     for (const Mode mode : {Mode::fresh, Mode::resume}) {
       std::ofstream(file_) << text;
-      EXPECT_EQ(complaint(mode, campaign), "is not a file of runs (corridor-runs-1)");
+      EXPECT_EQ(complaint(mode, campaign), "is not a file of runs (corridor-runs-2)");
       EXPECT_EQ(test::contents(file_), text);
     }
   std::filesystem::remove(file_);

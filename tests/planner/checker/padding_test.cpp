@@ -187,8 +187,8 @@ TEST(WantedClearance, IsProvedWhereThePathHasIt) {
     plain.wantedClearance = wanted;
     const PathReport report = verifyPath(plain, {problem.task.start, problem.task.goals[0]});
     EXPECT_EQ(report.verdict, PathVerdict::proved);
-    EXPECT_LE(report.provenClearance, 0.1);
-    return report.provenClearance;
+    EXPECT_LE(report.provedClearance, 0.1);
+    return report.provedClearance;
   };
   const double usual = proven(0);
   EXPECT_GE(usual, 0.09);

@@ -56,8 +56,8 @@ TEST_F(WallOfPoints, CheckerAndVerifierAgreeWithTheClosedForm) {
     const PathReport report = verifyPath(plain, {at(-1, y, 0), at(1, y, 0)});
     EXPECT_EQ(report.verdict, free ? PathVerdict::proved : PathVerdict::refuted) << y;
     if (!free) continue;
-    EXPECT_LE(report.provenClearance, 0.35 - 0.14 - y + 1e-9);
-    EXPECT_GE(report.provenClearance, 0.8 * (0.35 - 0.14 - y) - 1e-5);
+    EXPECT_LE(report.provedClearance, 0.35 - 0.14 - y + 1e-9);
+    EXPECT_GE(report.provedClearance, 0.8 * (0.35 - 0.14 - y) - 1e-5);
   }
 }
 

@@ -49,7 +49,7 @@ TEST_P(Spaces, SolvedCertifiedAndVerified) {
     EXPECT_LE(problem.model.space.largestTurn(report.path[i - 1], report.path[i]), 1.5708);
   const VerifyReport verified = verifySolution(problem, makeSolution(problem, report));
   EXPECT_EQ(verified.verdict, PathVerdict::proved);
-  EXPECT_GT(verified.pathReport.provenClearance, 0);
+  EXPECT_GT(verified.pathReport.provedClearance, 0);
 }
 
 TEST_P(Spaces, SameSeedSamePathAnotherSeedAnother) {

@@ -88,8 +88,8 @@ TEST(HeldPairs, AreDecidedOnceForAllStates) {
       if (gap > 0) {
         // The closest of `pairs` are the ball and the sky, 3 m above the turret's centre.
         EXPECT_TRUE(report.findings.empty());
-        EXPECT_NEAR(report.smallestDistanceMet, std::sqrt(9 + 2) - 2 * kRadius, 1e-9);
-        EXPECT_GT(report.provenClearance, 2.5);
+        EXPECT_NEAR(report.closestFound, std::sqrt(9 + 2) - 2 * kRadius, 1e-9);
+        EXPECT_GT(report.provedClearance, 2.5);
         continue;
       }
       ASSERT_EQ(report.findings.size(), 1u);
@@ -101,7 +101,7 @@ TEST(HeldPairs, AreDecidedOnceForAllStates) {
       EXPECT_EQ(finding.edge, 0);
       EXPECT_EQ(finding.t, 0);
       EXPECT_FALSE(finding.freeUntil);
-      EXPECT_EQ(report.provenClearance, 0);
+      EXPECT_EQ(report.provedClearance, 0);
     }
   }
 }

@@ -75,7 +75,7 @@ TEST(VerifyNotFinite, StatesArentProved) {
     EXPECT_EQ(report.verdict, PathVerdict::refuted) << what;
     ASSERT_FALSE(report.findings.empty()) << what;
     EXPECT_EQ(report.findings[0].reason, "not a valid state") << what;
-    EXPECT_EQ(report.provenClearance, 0) << what;
+    EXPECT_EQ(report.provedClearance, 0) << what;
     for (const Configuration& state : bad.states)
       if (!state.allFinite()) {
         EXPECT_EQ(verifyPath(bad.problem(), {state}).verdict, PathVerdict::refuted) << what;

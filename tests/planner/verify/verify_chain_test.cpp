@@ -73,8 +73,8 @@ TEST(VerifyChain, StretchedArmPastAPoint) {
     const PathReport report = verifyPath(chain.problem, {joints({0, 0}), joints({1.9, 0})});
     EXPECT_EQ(report.verdict, gap > 0 ? PathVerdict::proved : PathVerdict::refuted) << gap;
     if (gap > 0) {
-      EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
-      EXPECT_GE(report.provenClearance, 0.85 * gap);
+      EXPECT_LE(report.provedClearance, gap * (1 + 1e-9));
+      EXPECT_GE(report.provedClearance, 0.85 * gap);
       EXPECT_LE(report.distanceQueries, 20'000u);
     } else {
       EXPECT_EQ(report.findings.at(0).a, "obstacle");
@@ -115,7 +115,7 @@ TEST(VerifyChain, TheRimOfADiscMoves) {
       chain.rods[0] = disc;
       const PathReport report = verifyPath(chain.problem, {joints({0}), joints({1.3})});
       EXPECT_EQ(report.verdict, from < 1 ? PathVerdict::refuted : PathVerdict::proved) << angle;
-      EXPECT_LE(report.provenClearance, 0.08 * (1 + 1e-9));
+      EXPECT_LE(report.provedClearance, 0.08 * (1 + 1e-9));
     }
   }
 }
@@ -179,7 +179,7 @@ TEST(VerifyChain, AnArmSlidesOverATableWithATube) {
   const std::vector<Configuration> path = {joints({-1, 0.3, 0.4}), joints({0.5, -0.2, 0.1})};
   const PathReport report = verifyPath(chain.problem, path);
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_LE(report.provenClearance, 0.001);
+  EXPECT_LE(report.provedClearance, 0.001);
   Chain beside(3, boxPart(Vec3(0, 0.08, -1), Vec3(4, 1, 1)));
   beside.problem.tube = chain.problem.tube;
   const std::vector<Configuration> along = {joints({0, 0, 0}), joints({-0.2, 0.05, 0.01})};
@@ -229,12 +229,12 @@ TEST(VerifyChain, RandomPathsAgainstDenseSampling) {
     double sampled = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= 300; ++k) {
       const Configuration q = from + k / 300.0 * (to - from);
-      sampled = std::min(sampled, verifyPath(chain.problem, {q}).smallestDistanceMet);
+      sampled = std::min(sampled, verifyPath(chain.problem, {q}).closestFound);
     }
     if (report.verdict == PathVerdict::proved) {
       ++proved;
-      EXPECT_GE(sampled, report.provenClearance * (1 - 1e-12)) << i;
-      EXPECT_GE(report.provenClearance, 0.5 * std::min(sampled, report.smallestDistanceMet)) << i;
+      EXPECT_GE(sampled, report.provedClearance * (1 - 1e-12)) << i;
+      EXPECT_GE(report.provedClearance, 0.5 * std::min(sampled, report.closestFound)) << i;
     } else {
       refuted += report.verdict == PathVerdict::refuted;
     }

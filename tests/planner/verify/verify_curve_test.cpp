@@ -133,9 +133,9 @@ TEST(VerifyCurve, GrazingByConstruction) {
             << "degree " << degree << ", gap " << gap << ", "
             << (report.findings.empty() ? "" : report.findings[0].reason);
         if (gap > 0) {
-          EXPECT_LE(report.provenClearance, real + 1e-15L);
-          EXPECT_GE(report.provenClearance, gap > 1e-5 ? 0.5 * gap : 0);
-          EXPECT_GE(report.smallestDistanceMet, real - 1e-15L);
+          EXPECT_LE(report.provedClearance, real + 1e-15L);
+          EXPECT_GE(report.provedClearance, gap > 1e-5 ? 0.5 * gap : 0);
+          EXPECT_GE(report.closestFound, real - 1e-15L);
         }
         ++cases;
       }
@@ -183,8 +183,8 @@ TEST(VerifyCurve, AStraightPieceIsTheEdge) {
                      edge = verifyPath(world.problem,
                                        {piece.coefficients.col(0), piece.coefficients.col(1)});
     EXPECT_EQ(curve.verdict, edge.verdict) << i;
-    EXPECT_GE(curve.provenClearance, 0.6 * edge.provenClearance);
-    EXPECT_GE(edge.provenClearance, 0.6 * curve.provenClearance);
+    EXPECT_GE(curve.provedClearance, 0.6 * edge.provedClearance);
+    EXPECT_GE(edge.provedClearance, 0.6 * curve.provedClearance);
     EXPECT_LE(static_cast<double>(curve.distanceQueries),
               1.1 * static_cast<double>(edge.distanceQueries) + 20);
     proved += curve.verdict == PathVerdict::proved;

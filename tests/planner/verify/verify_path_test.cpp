@@ -58,10 +58,10 @@ TEST(VerifyPath, BoxPastAWall) {
     EXPECT_EQ(report.verdict, PathVerdict::proved);
     EXPECT_EQ(report.edgesProved, 1);
     EXPECT_TRUE(report.findings.empty());
-    EXPECT_NEAR(report.smallestDistanceMet, clearance, 1e-12);
-    EXPECT_LE(report.provenClearance, clearance);
+    EXPECT_NEAR(report.closestFound, clearance, 1e-12);
+    EXPECT_LE(report.provedClearance, clearance);
     // Refining ends at 90 % of the smallest distance met.
-    EXPECT_GE(report.provenClearance, (clearance < 0.1 ? 0.6 : 0.89) * clearance);
+    EXPECT_GE(report.provedClearance, (clearance < 0.1 ? 0.6 : 0.89) * clearance);
   }
 }
 
@@ -102,7 +102,7 @@ TEST(VerifyPath, ExactTouchingIsRefuted) {
   EXPECT_EQ(finding.edge, 0);
   EXPECT_EQ(finding.gap, 0);
   EXPECT_EQ(finding.point.y(), 0.5);
-  EXPECT_EQ(report.provenClearance, 0);
+  EXPECT_EQ(report.provedClearance, 0);
   // The reported contact is exact at the reported pose, between the reported triangles.
   const auto corners = [](const TriangleMesh& mesh, std::uint32_t i) {
     return verify::Corners{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
@@ -128,7 +128,7 @@ TEST(VerifyPath, OneStateIsCheckedAsItIs) {
   World world(kCube, boxMesh(Vec3(1, -1, -1), Vec3(2, 1, 1)));
   PathReport report = world.verify(Poses{poseOf({0, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_NEAR(report.provenClearance, 0.5, 1e-12);
+  EXPECT_NEAR(report.provedClearance, 0.5, 1e-12);
   EXPECT_EQ(world.verify(Poses{poseOf({0.5, 0, 0})}).verdict, PathVerdict::refuted);
   EXPECT_EQ(world.verify(Poses{poseOf({0.5 - 1e-6, 0, 0})}).verdict, PathVerdict::proved);
 }
@@ -153,8 +153,8 @@ TEST(VerifyPath, BladePastAPoint) {
       EXPECT_EQ(second.verdict, gap > 6e-7 ? PathVerdict::proved : PathVerdict::refuted)
           << angle << " " << gap;
       if (gap > 0) {
-        EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
-        EXPECT_GE(report.provenClearance, 0.85 * gap - 2e-7);
+        EXPECT_LE(report.provedClearance, gap * (1 + 1e-9));
+        EXPECT_GE(report.provedClearance, 0.85 * gap - 2e-7);
       }
     }
   }
@@ -252,8 +252,8 @@ TEST(VerifyPath, RodThroughASlot) {
   }
   PathReport report = world.verify(Poses{poseOf({-3, 0, 0}), poseOf({3, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_NEAR(report.smallestDistanceMet, 0.001, 1e-12);
-  EXPECT_GE(report.provenClearance, 0.0006);
+  EXPECT_NEAR(report.closestFound, 0.001, 1e-12);
+  EXPECT_GE(report.provedClearance, 0.0006);
   // Tilted by 0.03 about z, the rod rises by 0.05·tan 0.03 > 0.001 inside the plate, whose half
   // thickness is 0.05.
   report = world.verify(
@@ -269,7 +269,7 @@ TEST(VerifyPath, MarginJustBelowAndAboveTheClearance) {
   world.problem.margin = 0.25 - 1e-6;
   const PathReport report = world.verify(path);
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_GE(report.provenClearance, world.problem.margin);
+  EXPECT_GE(report.provedClearance, world.problem.margin);
   for (const double margin : {0.25, 0.25 + 1e-6}) {
     world.problem.margin = margin;
     const PathReport violated = world.verify(path);
@@ -306,8 +306,8 @@ TEST(VerifyPath, TubeLargerThanTheClearanceIsNotProved) {
   world.problem.tube = {0.1, 0};
   world.problem.margin = 0;
   const PathReport report = world.verify(path);
-  EXPECT_LE(report.provenClearance, 0.15);
-  EXPECT_GE(report.provenClearance, 0.07);
+  EXPECT_LE(report.provedClearance, 0.15);
+  EXPECT_GE(report.provedClearance, 0.07);
 }
 
 // The tube of a planar body displaces the body only in the plane, so a body above a floor stays
@@ -377,7 +377,7 @@ TEST(VerifyPath, SlidingAlongAWallNeedsFewQueries) {
   World world(kCube, boxMesh(Vec3(-3, 0.5 + 1e-9, -1), Vec3(3, 2, 1)));
   const PathReport report = world.verify(Poses{poseOf({-5, 0, 0}), poseOf({5, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_LE(report.provenClearance, 1e-9);
+  EXPECT_LE(report.provedClearance, 1e-9);
   EXPECT_LE(report.distanceQueries, 200u);
 }
 
@@ -433,7 +433,7 @@ TEST(VerifyPath, BadStatesAndProblems) {
   world.problem.fixed.clear();
   const PathReport report = world.verify(Poses{RigidPose{}, poseOf({1, 0, 0})});
   EXPECT_EQ(report.verdict, PathVerdict::proved);
-  EXPECT_EQ(report.provenClearance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(report.provedClearance, std::numeric_limits<double>::infinity());
 }
 
 /// Returns the smallest distance over `samples` + 1 evenly spaced poses. The distance at each pose
@@ -444,7 +444,7 @@ double sampledDistance(World& world, const RigidPose& from, const RigidPose& to,
   for (int i = 0; i <= samples; ++i) {
     const double t = static_cast<double>(i) / samples;
     const RigidPose pose{from.p + t * (to.p - from.p), q0.slerp(t, q1)};
-    smallest = std::min(smallest, world.verify(Poses{pose}).smallestDistanceMet);
+    smallest = std::min(smallest, world.verify(Poses{pose}).closestFound);
   }
   return smallest;
 }
@@ -461,8 +461,8 @@ TEST(VerifyPath, RandomPathsAgainstDenseSampling) {
     const double sampled = sampledDistance(world, from, to, 400);
     if (report.verdict == PathVerdict::proved) {
       ++proved;
-      EXPECT_GE(sampled, report.provenClearance) << i;
-      EXPECT_GE(report.smallestDistanceMet, report.provenClearance) << i;
+      EXPECT_GE(sampled, report.provedClearance) << i;
+      EXPECT_GE(report.closestFound, report.provedClearance) << i;
     } else {
       refuted += report.verdict == PathVerdict::refuted;
     }

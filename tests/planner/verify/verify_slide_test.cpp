@@ -62,7 +62,7 @@ TEST(VerifyCurve, TurnsBackBeforeTheWall) {
     const double h = 0.875 - gap;
     const PathReport report = slide.verify({Slide::piece({0, 2 * h, 0})});
     EXPECT_EQ(report.verdict, PathVerdict::proved) << gap;
-    EXPECT_LE(report.provenClearance, 0.875 - h);
+    EXPECT_LE(report.provedClearance, 0.875 - h);
     EXPECT_LE(report.distanceQueries, 6000u);
   }
   const PathReport touching = slide.verify({Slide::piece({0, 2 * 0.875, 0})});
@@ -202,7 +202,7 @@ TEST(VerifyCurve, ABarThatTurnsAboutABall) {
     for (const CurvePiece& piece : {Slide::piece({0, 0.5}), Slide::piece({0, 0.25, 0.5})}) {
       const PathReport report = verifyCurve(problem, {&piece, 1});
       EXPECT_EQ(report.verdict, PathVerdict::proved) << gap;
-      EXPECT_LE(report.provenClearance, gap * (1 + 1e-9));
+      EXPECT_LE(report.provedClearance, gap * (1 + 1e-9));
       // About 4,000 of these queries refine the proved clearance.
       EXPECT_LE(static_cast<double>(report.distanceQueries), 5000 + 10 / std::sqrt(gap)) << gap;
     }

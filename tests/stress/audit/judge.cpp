@@ -228,7 +228,7 @@ std::string faultOf(const Case& c, const PathReport& r) {
   std::ostringstream fault;
   const std::string reason = r.findings.empty() ? "" : r.findings.front().reason;
   if (r.verdict == PathVerdict::proved && c.truth.violates)
-    fault << "FALSE PROVED, clearance " << r.provenClearance;
+    fault << "FALSE PROVED, clearance " << r.provedClearance;
   if (c.question.mode > Mode::flushToZero && r.verdict != PathVerdict::refuted) return fault.str();
   const bool halfTurn = reason == "ambiguous half turn";
   if (halfTurn && !(leftToHalfTurn(c.edge) < 1.1e-9))
@@ -242,8 +242,8 @@ std::string faultOf(const Case& c, const PathReport& r) {
   if (r.verdict == PathVerdict::undecided && !c.question.inTube && reason != "work limit reached" &&
       c.truth.apart > margin + c.largestUndecidedClearance())
     fault << " undecided (" << reason << ") at a clearance of " << c.truth.apart - margin << " m";
-  if (c.truth.apart - c.graze.rounding() > r.smallestDistanceMet)
-    fault << " met a distance of " << r.smallestDistanceMet << " m, where there is none below "
+  if (c.truth.apart - c.graze.rounding() > r.closestFound)
+    fault << " met a distance of " << r.closestFound << " m, where there is none below "
           << c.truth.apart;
   return fault.str();
 }

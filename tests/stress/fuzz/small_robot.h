@@ -248,9 +248,9 @@ inline void requireAgreement(const Comparison& c, const MotionResult& checked,
              "), gap " + number(finding.gap) + ", " + finding.a + " and " + finding.b);
   // The checker finds contacts at rounded poses, so a contact may be off by the rounding.
   if (checked.verdict == MotionVerdict::contact && verified.verdict == PathVerdict::proved &&
-      verified.provenClearance > c.options.margin + c.rounding)
+      verified.provedClearance > c.options.margin + c.rounding)
     fail(c.who + "contact at t = " + number(checked.time) + ", but proved with a clearance of " +
-         number(verified.provenClearance));
+         number(verified.provedClearance));
 }
 
 /// Compares the checker with the verifier on the robot's edge, and on the edge's two states.
@@ -273,14 +273,14 @@ inline void compareEdge(const Robot& robot, Decoder& in) {
     const double clearance = c.scene.clearance(X_WF, context, c.options.trees);
     const PathReport state = verifyPath(c.problem, {q});
     if (touches != (clearance == 0)) fail(c.who + "contact, at a distance of " + number(clearance));
-    if (touches && state.verdict == PathVerdict::proved && state.provenClearance > c.rounding)
+    if (touches && state.verdict == PathVerdict::proved && state.provedClearance > c.rounding)
       fail(c.who + "the scene reports contact in a state that is verified with a clearance of " +
-           number(state.provenClearance));
+           number(state.provedClearance));
     if (clearance > c.rounding && state.verdict == PathVerdict::refuted)
       fail(c.who + "a state refuted (" + state.findings.front().reason + ") at a clearance of " +
            number(clearance));
-    if (state.provenClearance > clearance + c.rounding)
-      fail(c.who + "the verifier proves a clearance of " + number(state.provenClearance) +
+    if (state.provedClearance > clearance + c.rounding)
+      fail(c.who + "the verifier proves a clearance of " + number(state.provedClearance) +
            " in a state, but the scene measures " + number(clearance));
   }
 }
