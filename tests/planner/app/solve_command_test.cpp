@@ -168,6 +168,15 @@ TEST_F(SolveArm, KeepsItsDistance) {
   const Result verified = run("verify arm.yaml s.yaml --json");
   EXPECT_EQ(verified.err, "");  // no warning: the clearance is proved
   EXPECT_GE(nlohmann::json::parse(verified.out)["proved_clearance_m"], proved);
+  // So is that of a trajectory, whose file claims none.
+  const Result timed = run("solve arm.yaml --trajectory t.csv --json");
+  ASSERT_EQ(timed.status, 0) << timed.err;
+  const auto made = nlohmann::json::parse(timed.out)["problems"][0]["trajectory"]["clearance"];
+  const auto rows = nlohmann::json::parse(run("verify arm.yaml t.csv --json").out);
+  EXPECT_GT(made["proved_clearance_m"], 0);
+  EXPECT_GE(rows["proved_clearance_m"], made["proved_clearance_m"]);
+  EXPECT_GE(rows["closest_found_m"], rows["proved_clearance_m"]);
+  EXPECT_TRUE(made["time_lost_s"].is_number());
   // If the file claims a larger clearance, it is not proved.
   std::string text = read("s.yaml");
   text.replace(text.find("\nclearance: "), 12, "\nclearance: 9");
