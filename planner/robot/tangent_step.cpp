@@ -23,6 +23,21 @@ Eigen::Quaterniond rotationOf(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
 }
 
+/// Returns the rotation vector of the shorter rotation from one quaternion to another.
+Eigen::Vector3d turnBetween(const double* from, const double* to) {
+  const Eigen::Quaterniond turn =
+      unitQuaternion(Eigen::Quaterniond(to)) * unitQuaternion(Eigen::Quaterniond(from)).conjugate();
+  const double sine = turn.vec().norm();  // of half the angle
+  if (sine == 0) return Eigen::Vector3d::Zero();
+  return std::copysign(2 * std::atan2(sine, std::abs(turn.w())) / sine, turn.w()) * turn.vec();
+}
+
+/// Returns the change of a line, or of a circle by the shorter way.
+double differenceIn(const Coordinate& c, const Configuration& from, const Configuration& to) {
+  const auto i = static_cast<Eigen::Index>(c.first);
+  return c.kind == Coordinate::Kind::circle ? circleTurn(from[i], to[i]).angle : to[i] - from[i];
+}
+
 }  // namespace
 
 Eigen::Index tangentSize(const ConfigurationSpace& space) {
@@ -42,6 +57,36 @@ TangentStep tangentWeights(const ConfigurationSpace& space) {
     at += stepSize(c);
   }
   return weights;
+}
+
+TangentStep stepBetween(const ConfigurationSpace& space, const Configuration& from,
+                        const Configuration& to) {
+  TangentStep step(tangentSize(space));
+  Eigen::Index at = 0;
+  for (const Coordinate& c : space.coordinates()) {
+    if (c.kind == Coordinate::Kind::rotation)
+      step.segment<3>(at) = turnBetween(from.data() + c.first, to.data() + c.first);
+    else
+      step[at] = differenceIn(c, from, to);
+    at += stepSize(c);
+  }
+  return step;
+}
+
+double weightedLength(const ConfigurationSpace& space, const Configuration& from,
+                      const Configuration& to, const TangentStep& weights) {
+  double squares = 0;
+  Eigen::Index at = 0;
+  for (const Coordinate& c : space.coordinates()) {
+    if (c.kind == Coordinate::Kind::rotation) {
+      const Eigen::Vector3d turn = turnBetween(from.data() + c.first, to.data() + c.first);
+      squares += turn.cwiseProduct(weights.segment<3>(at)).squaredNorm();
+    } else {
+      squares += std::pow(weights[at] * differenceIn(c, from, to), 2);
+    }
+    at += stepSize(c);
+  }
+  return std::sqrt(squares);
 }
 
 Configuration displaced(const ConfigurationSpace& space, const Configuration& q,

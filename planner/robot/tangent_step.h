@@ -18,6 +18,15 @@ Eigen::Index tangentSize(const ConfigurationSpace& space);
 /// coordinate alone has the distance factor·x.
 TangentStep tangentWeights(const ConfigurationSpace& space);
 
+/// Returns the step that leads from one configuration to another: circles and rotations go the
+/// shorter way round. @pre both are finite, and no quaternion is zero.
+TangentStep stepBetween(const ConfigurationSpace& space, const Configuration& from,
+                        const Configuration& to);
+
+/// Returns the Euclidean length of this step with each number multiplied by its weight.
+double weightedLength(const ConfigurationSpace& space, const Configuration& from,
+                      const Configuration& to, const TangentStep& weights);
+
 /// Returns the configuration that a step leads to. Lines stay within their bounds: a step beyond a
 /// bound ends at the bound. A line that is outside its bounds in `q` moves no farther outside.
 /// Angles are brought into [−π, π], and quaternions to norm 1. @pre `q` is finite, and no

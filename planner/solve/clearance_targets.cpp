@@ -5,8 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "collision/core/rigid_pose.h"
-#include "planner/robot/kinematic_tree.h"
+#include "planner/solve/contact_step.h"
 
 namespace corridor {
 
@@ -22,15 +21,9 @@ constexpr double kAim = 1.5;
 constexpr double kNear = 2;
 /// The maximum number of Newton steps of `movedApart`.
 constexpr int kSteps = 3;
-/// The number of sweeps over the pairs in each Newton step. So few are enough because there are few
-/// pairs, and their gradients are similar.
-constexpr int kSweeps = 20;
 /// If no step reaches the aim, steps for a half, a quarter, … of the way are tried, down to this
 /// part of the way.
 constexpr double kLeastPart = 1.0 / 16;
-/// A step may fall short of the requested change by this fraction, since the sweeps only converge
-/// to the change.
-constexpr double kUnmet = 0.1;
 /// The longest Newton step of `movedApart`, in the space's distance: for arms, radians if one joint
 /// of weight 1 moves.
 constexpr double kLongestStep = 0.5;
@@ -65,56 +58,6 @@ PairMargins targetsOf(const Checker& checker, double clearance, const Configurat
     for (std::size_t k = 0; k < targets.size(); ++k)
       targets[k] = std::max(targets[k], (*padding)[k]);
   return PairMargins(std::move(targets));
-}
-
-/// Returns the given frames and all frames above them in the tree, in ascending order of their
-/// indices.
-std::vector<std::size_t> framesAbove(const KinematicTree& tree, std::vector<std::size_t> frames) {
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    if (frames[i] != 0) frames.push_back(tree.frames[frames[i]].parent);
-  std::sort(frames.begin(), frames.end());
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  return frames;
-}
-
-/// A pair that should get farther apart by `need` metres, to first order. The step `step` has the
-/// direction of the largest change of the pair's distance, and changes this distance by `change` >
-/// 0.
-struct Constraint {
-  std::size_t pair = 0;
-  double distance = 0;
-  TangentStep gradient, step;
-  double change = 0, need = 0, multiplier = 0;
-};
-
-/// Returns the constraints of the pairs that a step can move apart.
-std::vector<Constraint> constraintsOf(const std::vector<Scene::NearPair>& near,
-                                      const std::vector<TangentStep>& gradients,
-                                      const TangentStep& weights) {
-  std::vector<Constraint> constraints;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    Constraint c{near[i].pair, near[i].distance.distance, gradients[i],
-                 gradients[i].cwiseQuotient(weights.cwiseAbs2())};
-    c.change = c.gradient.dot(c.step);
-    if (c.change > 0) constraints.push_back(std::move(c));
-  }
-  return constraints;
-}
-
-/// Returns the shortest step with gradient·step ≥ need for all pairs, by Hildreth's method (1957),
-/// or nullopt if it finds none.
-std::optional<TangentStep> shortestStep(std::vector<Constraint>& constraints, Eigen::Index size) {
-  TangentStep step = TangentStep::Zero(size);
-  for (Constraint& c : constraints) c.multiplier = 0;
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (Constraint& c : constraints) {
-      const double more = std::max((c.need - c.gradient.dot(step)) / c.change, -c.multiplier);
-      c.multiplier += more;
-      step += more * c.step;
-    }
-  for (const Constraint& c : constraints)
-    if (c.gradient.dot(step) < c.need - kUnmet * std::abs(c.need)) return std::nullopt;
-  return step;
 }
 
 }  // namespace
@@ -236,56 +179,6 @@ double ClearanceTargets::least() const {
   return all.empty() ? clearance_ : *std::min_element(all.begin(), all.end());
 }
 
-/// Returns, for each pair, the gradient of its distance: one entry for each number of a step. The
-/// closest points are kept fixed in their frames, which changes the distances only to second order.
-std::vector<TangentStep> ClearanceTargets::gradientsOf(const std::vector<Scene::NearPair>& near,
-                                                       const Configuration& q) const {
-  // The rounding of positions (some 1e-15 m) causes an error of the quotient of 1e-15 m /
-  // kDifference. Curvature causes an error of about kDifference times the size of the robot.
-  constexpr double kDifference = 1e-6;
-  struct Ends {
-    std::size_t frameA, frameB;
-    Vec3 p_A, p_B, apart, normal;
-  };
-  const Scene& scene = checker_.scene();
-  const KinematicTree& tree = checker_.model().tree;
-  std::vector<std::size_t> frames;
-  for (const Scene::NearPair& pair : near)
-    for (const std::size_t body :
-         {scene.motionPairs()[pair.pair].bodyA, scene.motionPairs()[pair.pair].bodyB})
-      frames.push_back(scene.bodies()[body].frame);
-  frames = framesAbove(tree, std::move(frames));
-  std::vector<Transform> X_WF(tree.frames.size());
-  setFramePoses(tree, q, frames, X_WF);
-  std::vector<Ends> ends;
-  for (const Scene::NearPair& pair : near) {
-    const std::size_t a = scene.bodies()[scene.motionPairs()[pair.pair].bodyA].frame,
-                      b = scene.bodies()[scene.motionPairs()[pair.pair].bodyB].frame;
-    const Vec3 apart = pair.distance.p_WB - pair.distance.p_WA;
-    ends.push_back({a, b, rigidInverse(X_WF[a]) * pair.distance.p_WA,
-                    rigidInverse(X_WF[b]) * pair.distance.p_WB, apart,
-                    apart.norm() > 0 ? Vec3(apart.normalized()) : Vec3(Vec3::Zero())});
-  }
-  const Eigen::Index size = weights_.size();
-  std::vector<TangentStep> gradients(near.size(), TangentStep::Zero(size));
-  for (Eigen::Index i = 0; i < size; ++i)
-    // The difference is one-sided. Near an upper bound, a step upwards would end early, so a step
-    // downwards is used.
-    for (const double difference : {kDifference, -kDifference}) {
-      const Configuration moved =
-          displaced(checker_.space(), q, difference * TangentStep::Unit(size, i));
-      if (checker_.space().distance(q, moved) < 0.9 * kDifference * weights_[i]) continue;
-      setFramePoses(tree, moved, frames, X_WF);
-      for (std::size_t k = 0; k < ends.size(); ++k) {
-        const Ends& e = ends[k];
-        gradients[k][i] =
-            e.normal.dot(X_WF[e.frameB] * e.p_B - X_WF[e.frameA] * e.p_A - e.apart) / difference;
-      }
-      break;
-    }
-  return gradients;
-}
-
 std::optional<Configuration> ClearanceTargets::movedApart(const Configuration& q) const {
   Configuration moved = q;
   for (int n = 0; n < kSteps; ++n) {
@@ -294,12 +187,12 @@ std::optional<Configuration> ClearanceTargets::movedApart(const Configuration& q
     for (const Scene::NearPair& pair : near)
       share = std::min(share, pair.distance.distance / targets_[pair.pair]);
     if (share >= kAim) break;
-    std::vector<Constraint> constraints = constraintsOf(near, gradientsOf(near, moved), weights_);
+    std::vector<DistanceConstraint> constraints = constraintsOf(checker_, near, moved);
     // In a narrow passage, not all pairs can reach the aim. The aim is then lowered towards
     // `share`.
     std::optional<TangentStep> step;
     for (double part = 1; !step && part >= kLeastPart; part /= 2) {
-      for (Constraint& c : constraints)
+      for (DistanceConstraint& c : constraints)
         c.need = (share + part * (kAim - share)) * targets_[c.pair] - c.distance;
       step = shortestStep(constraints, weights_.size());
     }

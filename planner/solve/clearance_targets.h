@@ -92,8 +92,6 @@ class ClearanceTargets {
   Worst worstOn(const Configuration& from, const Configuration& to, const PairMargins& lengths,
                 const std::vector<std::uint32_t>& pairs, double enough = 0,
                 std::optional<double> first = {}) const;
-  std::vector<TangentStep> gradientsOf(const std::vector<Scene::NearPair>& near,
-                                       const Configuration& q) const;
 
   const Checker& checker_;
   double clearance_, smallestAtEnds_;

@@ -53,6 +53,25 @@ TEST(TangentStep, WeightsGiveTheDistanceOfAStep) {
   }
 }
 
+TEST(TangentStep, StepsBetweenConfigurationsLeadThere) {
+  const ConfigurationSpace space = everyKind();
+  const TangentStep weights = tangentWeights(space);
+  std::mt19937_64 random(test::testSeed(5702));
+  std::uniform_real_distribution<double> scale(-3, 3);
+  for (int n = 0; n < 200; ++n) {
+    const Configuration from = somewhere(random);
+    Configuration to = somewhere(random);
+    to[2] *= 3;                     // an angle of up to 2.7 rad
+    to.tail<4>() *= scale(random);  // quaternions of any norm and sign
+    const TangentStep step = stepBetween(space, from, to);
+    EXPECT_LE(std::abs(step[2]), std::numbers::pi);
+    EXPECT_LE(step.tail<3>().norm(), std::numbers::pi);
+    EXPECT_LT(space.distance(displaced(space, from, step), to), 1e-7);
+    EXPECT_NEAR(weightedLength(space, from, to, weights), step.cwiseProduct(weights).norm(), 1e-12);
+    EXPECT_EQ(stepBetween(space, from, from), TangentStep(TangentStep::Zero(9)));
+  }
+}
+
 TEST(TangentStep, RotatesInTheFrameBeforeTheRotation) {
   const ConfigurationSpace space = everyKind();
   Configuration q = Configuration::Zero(10);
