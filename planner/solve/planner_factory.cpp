@@ -56,6 +56,8 @@
 
 #include "collision/core/error.h"
 #include "collision/core/spelling.h"
+#include "planner/solve/portfolio.h"
+#include "planner/solve/sliding_connect.h"
 
 namespace corridor {
 
@@ -91,6 +93,8 @@ Entry entry(const char* name, const char* about, Traits traits = {}) {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       entry<og::RRTConnect>("RRTConnect", "two trees that reach for each other; the default"),
+      entry<SlidingConnect>("SlidingConnect", "two trees that slide along obstacles"),
+      entry<Portfolio>("Portfolio", "RRTConnect and SlidingConnect in turns"),
       entry<og::RRT>("RRT", "one tree"),
       entry<og::LazyRRT>("LazyRRT", "one tree, edges checked when needed"),
       entry<og::TRRT>("TRRT", "one tree, prefers low cost"),

@@ -181,7 +181,8 @@ void SolveRun::setUpPlanner() {
 /// passages need more edges, and profit from a large tree.
 std::uint64_t SolveRun::defaultRestart() const {
   const bool isArm = hasSingleJoints(problem_.model.space);
-  return isArm && report_.repeatable ? 8000 : 0;
+  const bool restartsItself = problem_.settings.planner.name == "Portfolio";
+  return isArm && report_.repeatable && !restartsItself ? 8000 : 0;
 }
 
 void SolveRun::setUp() {
