@@ -271,11 +271,12 @@ TEST_F(CampaignYaml, FaultsOfPlannersHaveTheirLines) {
   const std::string start = std::string(kStart) + "checkers: {a: {}}\nplanners:\n";
   EXPECT_THAT(
       faults(start + "  - RRT\n  - RRTConect\n  - label: mine\n    name: PMR\nruns: 0\n"),
-      ElementsAre(HasSubstr("c.yaml:6: planners: unknown planner \"RRTConect\" (did you mean "
-                            "\"RRTConnect\"?); there are: RRTConnect, RRT, "),
-                  HasSubstr("c.yaml:7: planners: unknown planner \"PMR\" (did you mean "
-                            "\"PRM\"?)"),
-                  HasSubstr("c.yaml:9: runs: ")));
+      ElementsAre(
+          HasSubstr("c.yaml:6: planners: unknown planner \"RRTConect\" (did you mean "
+                    "\"RRTConnect\"?); there are: RRTConnect, SlidingConnect, Portfolio, RRT, "),
+          HasSubstr("c.yaml:7: planners: unknown planner \"PMR\" (did you mean "
+                    "\"PRM\"?)"),
+          HasSubstr("c.yaml:9: runs: ")));
   const auto checked = [&](const std::string& planners) -> std::string {
     const Campaign campaign = read(start + planners);
     try {

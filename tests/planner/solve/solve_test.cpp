@@ -221,9 +221,10 @@ TEST(Solve, EveryPlannerSolves) {
 TEST(Solve, UnknownNamesListTheKnownOnes) {
   Problem problem = hallProblem(Rigid::SE3);
   problem.settings.planner.name = "RRTConect";
-  EXPECT_THAT(complaintOf(problem),
-              StartsWith("hall.yaml:8: unknown planner \"RRTConect\" (did you mean "
-                         "\"RRTConnect\"?); there are: RRTConnect, RRT, "));
+  EXPECT_THAT(
+      complaintOf(problem),
+      StartsWith("hall.yaml:8: unknown planner \"RRTConect\" (did you mean "
+                 "\"RRTConnect\"?); there are: RRTConnect, SlidingConnect, Portfolio, RRT, "));
   problem = hallProblem(Rigid::SE3);
   problem.settings.planner.params = {{"rnge", "1"}};
   EXPECT_EQ(complaintOf(problem),
