@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <set>
@@ -121,9 +119,8 @@ class ProblemReport {
     const MarginsBeyond& beyond = padding.beyond;
     if (beyond.largest() > 0) {
       const auto total = [&](double metres) {
-        char text[32];  // the sum was rounded up, by far less than its twelfth digit
-        std::snprintf(text, sizeof text, "%.12g", problem_.task.margin + metres);
-        return std::strtod(text, nullptr);
+        // The sum was rounded up, by far less than its twelfth digit.
+        return std::stod(withDigits(problem_.task.margin + metres, 12));
       };
       json_["margins"] = {{"self_m", total(beyond.self)}, {"world_m", total(beyond.world)}};
       out_.line("margin", rounded(total(beyond.self)) + " m between links of a robot, " +

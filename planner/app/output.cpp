@@ -38,6 +38,12 @@ std::string provedClearanceText(double metres) {
                     : "free, but no distance is proved";
 }
 
+std::string marginText(const Task& task, double margin) {
+  const double beyond = task.padding.beyond.largest();
+  if (!(margin > 0 || beyond > 0)) return "";
+  return rounded(margin) + (beyond > 0 ? " to " + rounded(margin + beyond) : "") + " m";
+}
+
 std::string jsonText(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

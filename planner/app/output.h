@@ -39,6 +39,10 @@ std::string jsonText(const nlohmann::ordered_json& json, int indent = 2);
 /// Returns how far the tested pairs are proved to be apart, in millimetres.
 std::string provedClearanceText(double metres);
 
+/// Returns the margins of a task whose smallest margin was replaced: "0.003 to 0.004 m", or "" if
+/// there is none.
+std::string marginText(const Task& task, double margin);
+
 /// Inserts `notes` before all notes in `to`.
 inline void addFirst(const std::vector<Note>& notes, std::vector<Note>& to) {
   to.insert(to.begin(), notes.begin(), notes.end());

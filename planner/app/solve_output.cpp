@@ -46,7 +46,7 @@ std::string reasonOf(WhyOffTarget why) {
     case WhyOffTarget::notFound:
       return "; no way that keeps it was found";
     case WhyOffTarget::time:
-      return "; the time ran out before all searches for a way that keeps it";
+      return "; the time ran out before all searches for a way that keeps it were made";
     case WhyOffTarget::unknown:
       break;
   }
@@ -62,13 +62,11 @@ std::vector<std::string> clearanceLines(const PathClearance& c) {
   if (!c.a.empty())
     lines.back() += "; closest found: " + c.a + " and " + c.b + ", " + rounded(1e3 * c.smallest) +
                     " mm, edge " + std::to_string(c.edge) + " at " + rounded(c.t);
-  lines.push_back(
-      "every pair keeps the preferred distance, as far as start and goal allow, on " +
-      percent(c.shareOnTarget) + " of the length" +
-      (std::isfinite(c.smallestAtEnds)
-           ? " (70 % of a pair's distance there, " + rounded(1e3 * c.leastTarget) + " mm or more)"
-           : "") +
-      reasonOf(c.why));
+  lines.push_back("every pair keeps the preferred distance, as far as start and goal allow" +
+                  (std::isfinite(c.smallestAtEnds)
+                       ? " (" + rounded(1e3 * c.leastTarget) + " mm or more)"
+                       : std::string()) +
+                  ", on " + percent(c.shareOnTarget) + " of the length" + reasonOf(c.why));
   return lines;
 }
 
@@ -114,7 +112,7 @@ void printTrajectory(const ResultPrinter& out, const Problem& p, const MadeTraje
                       : "on " + percent(made.clearance->shareOnTarget) + " of the time") +
                  (made.timeLost.value_or(0) < 0.0005
                       ? ""
-                      : "; about " + rounded(*made.timeLost) + " s longer because of it"));
+                      : "; this costs about " + withDigits(*made.timeLost, 2) + " s"));
   out.line("limits", limitsText(p, made.ratios),
            keepsLimits(made.ratios) ? Tone::plain : Tone::bad);
   for (const std::string& note : p.task.limits.notes) out.line("note", note);
@@ -173,12 +171,17 @@ void print(const Solved& result, const std::string& problem, const SolveArgument
   if (r.clearance) {
     for (const std::string& line : clearanceLines(*r.clearance)) out.line("clearance", line);
   }
+  if (const std::string margin = marginText(p.task, r.margin); !margin.empty())
+    out.line("margin", margin);
   const std::string except = exceptText(p.model, r.leftOut);
   out.line("certified", r.certified ? "yes" + except : "no (" + r.checker + ")",
            r.certified ? Tone::good : Tone::bad);
   if (r.trajectory) printTrajectory(out, p, *r.trajectory, except);
   if (r.trajectory && r.trajectory->proved() && r.clearance && !r.trajectory->clearance)
-    out.line("note", "the clearance is the path's; corridor verify reports the trajectory's");
+    out.line("note",
+             "the clearance above is the path's; the trajectory may come closer "
+             "(prefer.clearance_of: path); "
+             "corridor verify reports its clearance");
   if (a.output) out.line("solution", *a.output);
   if (r.trajectory && r.trajectory->proved()) out.line("trajectory file", *a.trajectory);
   if (a.picture) out.line("picture", *a.picture);

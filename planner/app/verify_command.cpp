@@ -189,10 +189,8 @@ void print(const VerifyReport& r, const Problem& problem, const LeftOut& leftOut
                               : provedClearanceText(r.pathReport.provedClearance) +
                                     "; closest found: " + rounded(1e3 * r.pathReport.closestFound) +
                                     " mm");
-  const double beyond = problem.task.padding.beyond.largest();
-  if (r.margin > 0 || beyond > 0)
-    out.line("margin",
-             rounded(r.margin) + (beyond > 0 ? " to " + rounded(r.margin + beyond) : "") + " m");
+  if (const std::string margin = marginText(problem.task, r.margin); !margin.empty())
+    out.line("margin", margin);
   Padding padding = problem.task.padding;
   padding.beyond = {};
   if (!padding.empty())

@@ -18,7 +18,6 @@ namespace corridor {
 class ClearanceChecker : public ompl::base::StateValidityChecker {
  public:
   double clearance(const ompl::base::State* state) const final;
-  const Checker& checker() const { return checker_; }
 
  protected:
   ClearanceChecker(const ompl::base::SpaceInformationPtr& si, const Checker& checker);

@@ -58,7 +58,7 @@ std::optional<InvalidName> invalidNameIn(const CheckerSettings& checker) {
 }
 
 std::optional<std::string> whyNoClearance(double margin, const Settings& settings) {
-  if (margin > 0) return "can't be used with a margin; leave one of the two out";
+  if (margin > 0) return "can't be used if every pair has a margin; leave one of the two out";
   if (settings.simplify != Simplifier::corridor)
     return "needs Corridor's simplifier; leave out simplify: false or ompl (--no-simplify, "
            "--simplify)";

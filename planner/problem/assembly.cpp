@@ -48,16 +48,16 @@ void noteOnSliding(Problem& problem) {
         if (joint.name == planned.name && !joint.whyNoSliding.empty())
           throw InputError(Fault{
               problem.source.file.string(), 0,
-              joint.whyNoSliding + "; paths of differential drives are not planned for: joint " +
+              joint.whyNoSliding +
+                  "; paths of differential drives and cars are not planned for: joint " +
                   quotedWord(names.back()) +
                   " would move in any direction. Hold it (hold), or remove the property if the "
                   "base may slide"});
     }
   if (names.empty()) return;
   problem.source.notes.push_back(
-      {"planar joints move in any direction, so the base may slide; differential drives are not "
-       "planned for: " +
-           joinedFirst(names, 6),
+      {"these planar joints move in any direction, so the base may slide: " +
+           joinedFirst(names, 6) + "; paths of differential drives and cars are not planned for",
        NoteWeight::motion});
 }
 

@@ -7,38 +7,41 @@
 
 #include "collision/core/circle.h"
 #include "planner/robot/angles.h"
+#include "planner/robot/difference.h"
 
 namespace corridor {
 
-namespace {
-
-Eigen::Index stepSize(const Coordinate& c) {
-  return c.kind == Coordinate::Kind::rotation ? 3 : 1;
-}
-
-/// Returns the quaternion of a rotation vector.
 Eigen::Quaterniond rotationOf(const Eigen::Vector3d& v) {
   const double angle = v.norm();
   if (angle == 0) return Eigen::Quaterniond::Identity();
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
 }
 
-/// Returns the rotation vector of the shorter rotation from one quaternion to another.
-Eigen::Vector3d turnBetween(const double* from, const double* to) {
-  const Eigen::Quaterniond turn =
-      unitQuaternion(Eigen::Quaterniond(to)) * unitQuaternion(Eigen::Quaterniond(from)).conjugate();
-  const double sine = turn.vec().norm();  // of half the angle
+Eigen::Vector3d rotationVector(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+  const auto quaternionOf = [](const Eigen::Vector4d& numbers) {
+    return Eigen::Quaterniond(Eigen::Vector4d(numbers.stableNormalized()));
+  };
+  // R_b = exp(v)·R_a, where v is in the coordinates of the frame in which a and b are given.
+  Eigen::Quaterniond turn = quaternionOf(b) * quaternionOf(a).conjugate();
+  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+  const double sine = turn.vec().stableNorm();
   if (sine == 0) return Eigen::Vector3d::Zero();
-  return std::copysign(2 * std::atan2(sine, std::abs(turn.w())) / sine, turn.w()) * turn.vec();
+  return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
 }
 
-/// Returns the change of a line, or of a circle by the shorter way.
-double differenceIn(const Coordinate& c, const Configuration& from, const Configuration& to) {
-  const auto i = static_cast<Eigen::Index>(c.first);
-  return c.kind == Coordinate::Kind::circle ? circleTurn(from[i], to[i]).angle : to[i] - from[i];
+Eigen::Index stepSize(const Coordinate& coordinate) {
+  return coordinate.kind == Coordinate::Kind::rotation ? 3 : 1;
 }
 
-}  // namespace
+std::vector<Eigen::Index> firstsInStep(const ConfigurationSpace& space) {
+  std::vector<Eigen::Index> firsts;
+  Eigen::Index at = 0;
+  for (const Coordinate& c : space.coordinates()) {
+    firsts.push_back(at);
+    at += stepSize(c);
+  }
+  return firsts;
+}
 
 Eigen::Index tangentSize(const ConfigurationSpace& space) {
   Eigen::Index size = 0;
@@ -64,10 +67,18 @@ TangentStep stepBetween(const ConfigurationSpace& space, const Configuration& fr
   TangentStep step(tangentSize(space));
   Eigen::Index at = 0;
   for (const Coordinate& c : space.coordinates()) {
-    if (c.kind == Coordinate::Kind::rotation)
-      step.segment<3>(at) = turnBetween(from.data() + c.first, to.data() + c.first);
-    else
-      step[at] = differenceIn(c, from, to);
+    const auto i = static_cast<Eigen::Index>(c.first);
+    switch (c.kind) {
+      case Coordinate::Kind::line:
+        step[at] = to[i] - from[i];
+        break;
+      case Coordinate::Kind::circle:
+        step[at] = circleTurn(from[i], to[i]).angle;
+        break;
+      case Coordinate::Kind::rotation:
+        step.segment<3>(at) = rotationVector(from.segment<4>(i), to.segment<4>(i));
+        break;
+    }
     at += stepSize(c);
   }
   return step;
@@ -78,12 +89,10 @@ double weightedLength(const ConfigurationSpace& space, const Configuration& from
   double squares = 0;
   Eigen::Index at = 0;
   for (const Coordinate& c : space.coordinates()) {
-    if (c.kind == Coordinate::Kind::rotation) {
-      const Eigen::Vector3d turn = turnBetween(from.data() + c.first, to.data() + c.first);
-      squares += turn.cwiseProduct(weights.segment<3>(at)).squaredNorm();
-    } else {
-      squares += std::pow(weights[at] * differenceIn(c, from, to), 2);
-    }
+    // The difference of a rotation is half of its angle.
+    const double unit = c.kind == Coordinate::Kind::rotation ? 2 : 1,
+                 length = unit * weights[at] * differenceOf(c, from, to);
+    squares += length * length;
     at += stepSize(c);
   }
   return std::sqrt(squares);

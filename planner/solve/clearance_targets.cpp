@@ -187,7 +187,7 @@ std::optional<Configuration> ClearanceTargets::movedApart(const Configuration& q
     for (const Scene::NearPair& pair : near)
       share = std::min(share, pair.distance.distance / targets_[pair.pair]);
     if (share >= kAim) break;
-    std::vector<DistanceConstraint> constraints = constraintsOf(checker_, near, moved);
+    std::vector<DistanceConstraint> constraints = constraintsOf(checker_, near, moved, weights_);
     // In a narrow passage, not all pairs can reach the aim. The aim is then lowered towards
     // `share`.
     std::optional<TangentStep> step;

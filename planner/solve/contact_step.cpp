@@ -28,8 +28,8 @@ std::vector<std::size_t> framesAbove(const KinematicTree& tree, std::vector<std:
   return frames;
 }
 
-}  // namespace
-
+/// Returns, for each pair, the gradient of its distance at q. The closest points are kept fixed in
+/// their frames, which changes the distances only to second order.
 std::vector<TangentStep> distanceGradients(const Checker& checker,
                                            const std::vector<Scene::NearPair>& near,
                                            const Configuration& q) {
@@ -80,15 +80,16 @@ std::vector<TangentStep> distanceGradients(const Checker& checker,
   return gradients;
 }
 
+}  // namespace
+
 std::vector<DistanceConstraint> constraintsOf(const Checker& checker,
                                               const std::vector<Scene::NearPair>& near,
-                                              const Configuration& q) {
+                                              const Configuration& q, const TangentStep& weights) {
   const std::vector<TangentStep> gradients = distanceGradients(checker, near, q);
-  const TangentStep squares = tangentWeights(checker.space()).cwiseAbs2();
   std::vector<DistanceConstraint> constraints;
   for (std::size_t i = 0; i < near.size(); ++i) {
     DistanceConstraint c{near[i].pair, near[i].distance.distance, gradients[i],
-                         gradients[i].cwiseQuotient(squares)};
+                         gradients[i].cwiseQuotient(weights.cwiseAbs2())};
     c.change = c.gradient.dot(c.step);
     if (c.change > 0) constraints.push_back(std::move(c));
   }

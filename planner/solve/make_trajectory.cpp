@@ -107,11 +107,10 @@ LawfulCurve smoothCurve(const Problem& problem, const Checker& checker, const Pa
   SmoothOptions options = smoothOptions(space, problem.task.limits, problem.settings.trajectory);
   options.fractions = wanted.fractions;
   const CurveTest isFree = [&](const CurvePiece& piece, double fraction) {
-    if (wanted.clearance && wanted.clearance->isKept(piece, fraction)) return true;
-    if (wanted.clearance && refuses) return false;
-    const bool free = checker.certifyCurve(piece).verdict == MotionVerdict::free;
-    if (!wanted.clearance) return free;
-    refuses = free;
+    const auto free = [&] { return checker.certifyCurve(piece).verdict == MotionVerdict::free; };
+    if (!wanted.clearance) return free();
+    if (wanted.clearance->isKept(piece, fraction)) return true;
+    refuses = refuses || free();
     return false;
   };
   SmoothPath smooth = smoothedPath(space, path, isFree, options, stop);

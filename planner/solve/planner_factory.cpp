@@ -70,18 +70,29 @@ namespace {
 struct Traits {
   bool optimises = false;
   bool repeatable = true;
+  bool restarts = false;
 };
 
 struct Entry {
   PlannerInfo info;
-  std::function<ob::PlannerPtr(const ob::SpaceInformationPtr&)> make;
+  std::function<ob::PlannerPtr(const ob::SpaceInformationPtr&, const Checker*)> make;
 };
 
 template <class Planner>
 Entry entry(const char* name, const char* about, Traits traits = {}) {
-  return {{name, about, traits.repeatable, traits.optimises},
-          [](const ob::SpaceInformationPtr& si) -> ob::PlannerPtr {
+  return {{name, about, traits.repeatable, traits.optimises, traits.restarts},
+          [](const ob::SpaceInformationPtr& si, const Checker*) -> ob::PlannerPtr {
             return std::make_shared<Planner>(si);
+          }};
+}
+
+/// For our own planners, which take the checker. (Not found out from the constructors: a pointer is
+/// also a `bool`, which RRTConnect takes.)
+template <class Planner>
+Entry ownEntry(const char* name, const char* about, Traits traits = {}) {
+  return {{name, about, traits.repeatable, traits.optimises, traits.restarts},
+          [](const ob::SpaceInformationPtr& si, const Checker* checker) -> ob::PlannerPtr {
+            return std::make_shared<Planner>(si, checker);
           }};
 }
 
@@ -93,8 +104,9 @@ Entry entry(const char* name, const char* about, Traits traits = {}) {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       entry<og::RRTConnect>("RRTConnect", "two trees that reach for each other; the default"),
-      entry<SlidingConnect>("SlidingConnect", "two trees that slide along obstacles"),
-      entry<Portfolio>("Portfolio", "RRTConnect and SlidingConnect in turns"),
+      ownEntry<SlidingConnect>("SlidingConnect", "two trees that slide along obstacles"),
+      ownEntry<Portfolio>("Portfolio", "RRTConnect and SlidingConnect in turns",
+                          {.restarts = true}),
       entry<og::RRT>("RRT", "one tree"),
       entry<og::LazyRRT>("LazyRRT", "one tree, edges checked when needed"),
       entry<og::TRRT>("TRRT", "one tree, prefers low cost"),
@@ -246,14 +258,14 @@ std::optional<std::string> unknownPlanner(const std::string& name) {
          "; there are: " + joined(names);
 }
 
-ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const std::string& name,
-                           const std::vector<PlannerParameter>& parameters,
+ob::PlannerPtr makePlanner(const ob::SpaceInformationPtr& si, const Checker* checker,
+                           const std::string& name, const std::vector<PlannerParameter>& parameters,
                            const PlannerParameter& nameAt) {
   if (auto unknown = unknownPlanner(name))
     throw InputError(Fault{nameAt.file, nameAt.line, std::move(*unknown)});
   ob::PlannerPtr planner;
   for (const Entry& entry : entries())
-    if (entry.info.name == name) planner = entry.make(si);
+    if (entry.info.name == name) planner = entry.make(si, checker);
   std::vector<Fault> faults;
   for (const PlannerParameter& given : parameters) {
     ob::ParamSet& set = !planner->params().hasParam(given.key) && si->params().hasParam(given.key)

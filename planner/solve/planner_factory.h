@@ -14,6 +14,8 @@ class SpaceInformation;
 
 namespace corridor {
 
+class Checker;
+
 /// Properties of one of OMPL's planners.
 struct PlannerInfo {
   std::string name;   ///< OMPL's name of the planner
@@ -24,6 +26,8 @@ struct PlannerInfo {
   /// Whether the planner uses all its time for better paths, unless it is set to stop at the first
   /// path.
   bool optimises = false;
+  /// Whether the planner starts its searches again itself (planner.restart).
+  bool restarts = false;
 };
 
 /// Returns all planners that `makePlanner` accepts, in the order in which messages list them. To
@@ -42,13 +46,15 @@ struct PlannerParameter {
 
 /// Creates a planner and sets its parameters. A parameter that the planner does not have, but `si`
 /// has, is set in `si`.
+/// @param checker for planners that use distances; null if the tests of `si` are not its tests
 /// @param nameAt the place where the name was written, for messages; its key and value are ignored.
 /// @throws InputError if the planner's name is unknown. If it is known, but parameters have faults
 /// (unknown names, values of the wrong type or range), throws InputError with all of these faults;
 /// a fault of an unknown name lists the planner's parameters.
 std::shared_ptr<ompl::base::Planner> makePlanner(
-    const std::shared_ptr<ompl::base::SpaceInformation>& si, const std::string& name,
-    const std::vector<PlannerParameter>& parameters, const PlannerParameter& nameAt = {});
+    const std::shared_ptr<ompl::base::SpaceInformation>& si, const Checker* checker,
+    const std::string& name, const std::vector<PlannerParameter>& parameters,
+    const PlannerParameter& nameAt = {});
 
 /// Sets the sampler of valid states.
 void setValidStateSampler(ompl::base::SpaceInformation& si, ValidSampler sampler);

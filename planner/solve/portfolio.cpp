@@ -8,8 +8,8 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
-#include "planner/checker/motion_validators.h"
 #include "planner/checker/problem_state_space.h"
+#include "planner/model/model.h"
 #include "planner/solve/sliding_connect.h"
 
 namespace corridor {
@@ -19,10 +19,8 @@ namespace og = ompl::geometric;
 
 namespace {
 
-/// The edges of the first search. Measured on arms (mbm, two-armed robots), most searches of
-/// RRTConnect need fewer, and those that need more are found sooner by a new search. Rigid bodies
-/// that need more profit from sliding.
-constexpr std::uint64_t kFirstEdges = 8000, kFirstEdgesOfBodies = 2000;
+/// The edges of the first search for a rigid body. Problems that need more profit from sliding.
+constexpr std::uint64_t kFirstEdgesOfBodies = 2000;
 /// The edges of the shortest run of SlidingConnect.
 constexpr std::uint64_t kShortestRun = 8000, kShortestRunOfBodies = 32000;
 /// For rigid bodies, RRTConnect gets this fraction of SlidingConnect's edges.
@@ -49,8 +47,10 @@ std::uint64_t luby(std::uint64_t i) {
   }
 }
 
-Portfolio::Portfolio(const ob::SpaceInformationPtr& si)
-    : ob::Planner(si, "Portfolio"), connect_(std::make_shared<og::RRTConnect>(si)) {
+Portfolio::Portfolio(const ob::SpaceInformationPtr& si, const Checker* checker)
+    : ob::Planner(si, "Portfolio"),
+      checker_(checker),
+      connect_(std::make_shared<og::RRTConnect>(si)) {
   specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
   declareParam<double>("range", this, &Portfolio::setRange, &Portfolio::getRange, "0.:1.:10000.");
   const auto* space = dynamic_cast<const ProblemStateSpace*>(si->getStateSpace().get());
@@ -79,19 +79,13 @@ void Portfolio::clear() {
   turns_ = left_ = limit_ = 0;
 }
 
-std::uint64_t Portfolio::edges() const {
-  const auto* counting =
-      dynamic_cast<const CountingMotionValidator*>(si_->getMotionValidator().get());
-  return counting ? counting->checkedMotions() : si_->getCheckedMotionCount();
-}
-
 /// Runs a planner until it tested a number of edges.
 template <class Member>
 ob::PlannerStatus Portfolio::run(Member& member, std::uint64_t edges,
                                  const ob::PlannerTerminationCondition& stop) {
-  const std::uint64_t until = this->edges() + edges;
-  return member.solve(
-      ob::PlannerTerminationCondition([&] { return stop.eval() || this->edges() >= until; }));
+  const std::uint64_t until = si_->getCheckedMotionCount() + edges;
+  return member.solve(ob::PlannerTerminationCondition(
+      [&] { return stop.eval() || si_->getCheckedMotionCount() >= until; }));
 }
 
 /// Goes on with RRTConnect.
@@ -101,7 +95,7 @@ ob::PlannerStatus Portfolio::connect(std::uint64_t edges,
   for (std::uint64_t part; edges > 0; edges -= part) {
     if (restarts_ && left_ == 0) {
       if (limit_ > 0) connect_->clear();  // but its random numbers continue
-      left_ = limit_ = limit_ > 0 ? 2 * limit_ : kFirstEdges;
+      left_ = limit_ = limit_ > 0 ? 2 * limit_ : kRestartEdges;
     }
     part = restarts_ ? std::min(left_, edges) : edges;
     status = run(*connect_, part, stop);
@@ -119,7 +113,7 @@ ob::PlannerStatus Portfolio::slide(const ob::PlannerTerminationCondition& stop) 
   const std::uint64_t j = static_cast<std::uint64_t>(std::bit_width(length)) - 1;
   const Variant& variant = kVariants[((turns_ >> (j + 1)) + j) % std::size(kVariants)];
   if (!sliding_) {
-    sliding_ = std::make_shared<SlidingConnect>(si_);
+    sliding_ = std::make_shared<SlidingConnect>(si_, checker_);
     sliding_->setProblemDefinition(pdef_);
   }
   sliding_->clear();
@@ -134,19 +128,19 @@ ob::PlannerStatus Portfolio::solve(const ob::PlannerTerminationCondition& stop) 
   checkValidity();
   if (!pdef_->getGoal()->hasType(ob::GOAL_SAMPLEABLE_REGION))
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
-  ob::PlannerStatus status = connect(restarts_ ? kFirstEdges : kFirstEdgesOfBodies, stop);
+  ob::PlannerStatus status = connect(restarts_ ? kRestartEdges : kFirstEdgesOfBodies, stop);
   const auto goesOn = [&] {
     return (status == ob::PlannerStatus::TIMEOUT ||
             status == ob::PlannerStatus::APPROXIMATE_SOLUTION) &&
            !stop.eval();
   };
   while (goesOn()) {
-    const std::uint64_t before = edges();
+    const std::uint64_t before = si_->getCheckedMotionCount();
     const ob::PlannerStatus slid = slide(stop);
     if (slid == ob::PlannerStatus::EXACT_SOLUTION) return slid;
     if (stop.eval()) break;
     const std::uint64_t share = restarts_ ? 1 : kBodyShare;
-    status = connect(std::max((edges() - before) / share, kLeastTurn), stop);
+    status = connect(std::max((si_->getCheckedMotionCount() - before) / share, kLeastTurn), stop);
   }
   return status;
 }

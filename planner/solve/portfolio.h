@@ -11,7 +11,13 @@ class RRTConnect;
 
 namespace corridor {
 
+class Checker;
 class SlidingConnect;
+
+/// The number of edges after which a search for a robot with joints starts again. The time of a
+/// search by random trees has a heavy tail. Measured on arms (mbm, two-armed robots), most searches
+/// of RRTConnect test fewer edges, and those that need more are found sooner by a new search.
+inline constexpr std::uint64_t kRestartEdges = 8000;
 
 /// Returns the i-th number, i ≥ 1, of the sequence of Luby, Sinclair and Zuckerman (Optimal speedup
 /// of Las Vegas algorithms, 1993): 1 1 2 1 1 2 4 1 …. Restarts after these multiples of a unit take
@@ -19,10 +25,11 @@ class SlidingConnect;
 std::uint64_t luby(std::uint64_t i);
 
 /// Takes turns between searches of two kinds, until one finds a path:
-/// - RRTConnect goes first, for as many edges as most problems need (kFirstEdges). It goes on
-///   later, in its turns. For robots with joints, it starts again after 8000, 16000, … edges.
+/// - RRTConnect goes first, for as many edges as most problems need: `kRestartEdges`, or 2000 for
+///   rigid bodies. It goes on later, in its turns. For robots with joints, it starts again after
+///   `kRestartEdges`, twice as many, …
 /// - SlidingConnect starts again and again, after numbers of edges that `luby` determines. Its runs
-///   take turns between several values of its parameters: one of them suits the problem.
+///   take turns between several values of its parameters, because none suits all problems.
 ///
 /// For robots with joints, both kinds test the same number of edges; for rigid bodies, RRTConnect
 /// tests a quarter of those of SlidingConnect. Turns are counted in edges, so that the same random
@@ -32,7 +39,9 @@ std::uint64_t luby(std::uint64_t i);
 class Portfolio final : public ompl::base::Planner {
  public:
   /// The state space of `si` must be a ProblemStateSpace.
-  explicit Portfolio(const ompl::base::SpaceInformationPtr& si);
+  /// @param checker tests the motions of `si`, and measures distances; null: nothing slides. It
+  /// must outlive the planner.
+  Portfolio(const ompl::base::SpaceInformationPtr& si, const Checker* checker);
   ~Portfolio() override;
 
   void setup() override;
@@ -46,7 +55,6 @@ class Portfolio final : public ompl::base::Planner {
   double getRange() const { return range_; }
 
  private:
-  std::uint64_t edges() const;
   template <class Member>
   ompl::base::PlannerStatus run(Member& member, std::uint64_t edges,
                                 const ompl::base::PlannerTerminationCondition& stop);
@@ -54,6 +62,7 @@ class Portfolio final : public ompl::base::Planner {
                                     const ompl::base::PlannerTerminationCondition& stop);
   ompl::base::PlannerStatus slide(const ompl::base::PlannerTerminationCondition& stop);
 
+  const Checker* checker_;
   double range_ = 0;
   std::shared_ptr<ompl::geometric::RRTConnect> connect_;
   std::shared_ptr<SlidingConnect> sliding_;  // null before its first run

@@ -17,7 +17,6 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include "planner/checker/problem_state_space.h"
-#include "planner/checker/state_validity_checkers.h"
 #include "planner/solve/contact_step.h"
 
 namespace corridor {
@@ -29,19 +28,18 @@ namespace og = ompl::geometric;
 class SlidingConnect::Search {
  public:
   /// @param range 0: a fifth of the extent, times rangeFactor
-  Search(ob::SpaceInformationPtr si, double range, double rangeFactor, double turnWeight,
-         unsigned slides)
+  Search(ob::SpaceInformationPtr si, const Checker* checker, double range, double rangeFactor,
+         double turnWeight, unsigned slides)
       : si_(std::move(si)),
         state_(*si_->getStateSpace()->as<ProblemStateSpace>()),
         space_(state_.configurations()),
+        checker_(checker),
         slides_(slides),
         weights_(tangentWeights(space_)),
         from_(si_),
         to_(si_),
         sample_(si_),
         sampler_(si_->allocStateSampler()) {
-    const auto* own = dynamic_cast<const ClearanceChecker*>(si_->getStateValidityChecker().get());
-    if (own) checker_ = &own->checker();
     if (checker_ && turnWeight > 0) weighTurns(turnWeight);
     range_ = range > 0 ? range : rangeFactor * kRangeOfExtent * extent();
     if (checker_) setNear();
@@ -153,33 +151,27 @@ class SlidingConnect::Search {
     return weightedLength(space_, a, b, weights_);
   }
 
+  /// Sets the weights of the rotations of planar and floating joints.
   void weighTurns(double turnWeight) {
     double radius = 0;
     for (const auto& placed : checker_->scene().bodies())
       if (placed.frame != 0) radius = std::max(radius, placed.body.radius());
-    Eigen::Index k = 0;
-    for (const Coordinate& c : space_.coordinates()) {
-      const Eigen::Index size = c.kind == Coordinate::Kind::rotation ? 3 : 1;
-      if (size == 3) weights_.segment(k, size).setConstant(turnWeight * radius);
-      k += size;
-    }
-    for (const CoordinateGroup& group : space_.groups()) {
-      if (group.kind != CoordinateGroup::Kind::planar) continue;
-      const std::size_t yaw = group.coordinates.back();
-      Eigen::Index first = 0;
-      for (std::size_t c = 0; c < yaw; ++c)
-        first += space_.coordinates()[c].kind == Coordinate::Kind::rotation ? 3 : 1;
-      weights_[first] = turnWeight * radius;
-    }
+    const std::vector<Eigen::Index> firsts = firstsInStep(space_);
+    for (const CoordinateGroup& group : space_.groups())
+      if (group.kind != CoordinateGroup::Kind::joints) {
+        const std::size_t turn = group.coordinates.back();
+        weights_.segment(firsts[turn], stepSize(space_.coordinates()[turn]))
+            .setConstant(turnWeight * radius);
+      }
   }
 
   double extent() const {
+    const std::vector<Eigen::Index> firsts = firstsInStep(space_);
     double squares = 0;
-    Eigen::Index k = 0;
-    for (const Coordinate& c : space_.coordinates()) {
+    for (std::size_t i = 0; i < firsts.size(); ++i) {
+      const Coordinate& c = space_.coordinates()[i];
       const bool line = c.kind == Coordinate::Kind::line;
-      squares += std::pow(weights_[k] * (line ? c.upper - c.lower : std::numbers::pi), 2);
-      k += c.kind == Coordinate::Kind::rotation ? 3 : 1;
+      squares += std::pow(weights_[firsts[i]] * (line ? c.upper - c.lower : std::numbers::pi), 2);
     }
     return std::sqrt(squares);
   }
@@ -266,11 +258,9 @@ class SlidingConnect::Search {
 
   /// Adds the pairs that are close at q. Only the latest contacts are kept.
   void addContactsAt(const Configuration& q, std::vector<DistanceConstraint>& contacts) const {
-    for (DistanceConstraint& c : constraintsOf(*checker_, checker_->pairsWithin(q, *near_), q)) {
-      c.step = c.gradient.cwiseQuotient(weights_.cwiseAbs2());
-      c.change = c.gradient.dot(c.step);
+    for (DistanceConstraint& c :
+         constraintsOf(*checker_, checker_->pairsWithin(q, *near_), q, weights_))
       contacts.push_back(std::move(c));
-    }
     if (contacts.size() > kContacts)
       contacts.erase(contacts.begin(), contacts.end() - static_cast<std::ptrdiff_t>(kContacts));
   }
@@ -287,7 +277,7 @@ class SlidingConnect::Search {
   ob::SpaceInformationPtr si_;
   const ProblemStateSpace& state_;
   const ConfigurationSpace& space_;
-  const Checker* checker_ = nullptr;  // null: nothing slides
+  const Checker* checker_;  // null: nothing slides
   double range_ = 0;
   unsigned slides_;
   TangentStep weights_;
@@ -302,8 +292,8 @@ class SlidingConnect::Search {
   std::size_t round_ = 0;
 };
 
-SlidingConnect::SlidingConnect(const ob::SpaceInformationPtr& si)
-    : ob::Planner(si, "SlidingConnect") {
+SlidingConnect::SlidingConnect(const ob::SpaceInformationPtr& si, const Checker* checker)
+    : ob::Planner(si, "SlidingConnect"), checker_(checker) {
   if (!dynamic_cast<const ProblemStateSpace*>(si->getStateSpace().get()))
     throw std::invalid_argument("SlidingConnect: the space is no ProblemStateSpace");
   specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
@@ -326,7 +316,8 @@ ob::PlannerStatus SlidingConnect::solve(const ob::PlannerTerminationCondition& s
   checkValidity();
   if (!pdef_->getGoal()->hasType(ob::GOAL_SAMPLEABLE_REGION))
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
-  if (!search_) search_ = std::make_unique<Search>(si_, range_, rangeFactor_, turnWeight_, slides_);
+  if (!search_)
+    search_ = std::make_unique<Search>(si_, checker_, range_, rangeFactor_, turnWeight_, slides_);
   while (const ob::State* start = pis_.nextStart()) search_->addRoot(0, start);
   if (!search_->hasRoot(0)) return ob::PlannerStatus::INVALID_START;
   while (!stop.eval()) {

@@ -6,6 +6,8 @@
 
 namespace corridor {
 
+class Checker;
+
 /// Two trees that reach for each other, as in RRTConnect (Kuffner and LaValle, 2000), and slide
 /// along obstacles. Trees enter passages that random states rarely meet.
 ///
@@ -22,11 +24,11 @@ namespace corridor {
 /// (cubicles: 2.6), for short square slots, nor for most arms (ur5 in a cage: above 10), because
 /// distances of all close pairs are measured.
 ///
-/// All edges are tested by the motion validator of the space. If its state validity checker is not
-/// Corridor's, as with FCL, no step slides. The same random numbers give the same path.
+/// All edges are tested by the motion validator of the space. The same random numbers give the same
+/// path.
 ///
 /// Parameters:
-/// - `range`: the longest edge; 0: a fifth of the extent of the space.
+/// - `range`: the longest edge, in the planner's distance; 0: a fifth of the extent of the space.
 /// - `slides`: the largest number of steps along obstacles after each edge that meets one.
 /// - `turn_weight`: how much the rotation of a rigid body counts in the planner's distance, in
 ///   multiples of the body's radius (largest distance from its frame's origin), per radian. 0: as
@@ -35,7 +37,9 @@ namespace corridor {
 class SlidingConnect final : public ompl::base::Planner {
  public:
   /// The state space of `si` must be a ProblemStateSpace.
-  explicit SlidingConnect(const ompl::base::SpaceInformationPtr& si);
+  /// @param checker tests the motions of `si`, and measures distances; null: nothing slides. It
+  /// must outlive the planner.
+  SlidingConnect(const ompl::base::SpaceInformationPtr& si, const Checker* checker);
   ~SlidingConnect() override;
 
   void clear() override;
@@ -54,6 +58,7 @@ class SlidingConnect final : public ompl::base::Planner {
 
  private:
   class Search;
+  const Checker* checker_;
   double range_ = 0, rangeFactor_ = 1, turnWeight_ = 1;
   unsigned slides_ = 8;
   std::unique_ptr<Search> search_;  // null before the first call of `solve`

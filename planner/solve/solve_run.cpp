@@ -24,6 +24,7 @@
 #include "planner/solve/joints_to_hold.h"
 #include "planner/solve/keep_clearance.h"
 #include "planner/solve/ompl_goal.h"
+#include "planner/solve/portfolio.h"
 #include "planner/solve/replan_on_target.h"
 #include "planner/solve/simplify_path.h"
 #include "planner/solve/why_not_free.h"
@@ -161,8 +162,8 @@ void SolveRun::setUpPlanner() {
   std::vector<PlannerParameter> parameters;
   for (const auto& [key, value] : problem_.settings.planner.params)
     parameters.push_back(parameterAt("planner.params." + key, key, value));
-  planner_ =
-      makePlanner(si_, problem_.settings.planner.name, parameters, parameterAt("planner.name"));
+  planner_ = makePlanner(si_, testsAreOwn() ? &checker_ : nullptr, problem_.settings.planner.name,
+                         parameters, parameterAt("planner.name"));
   const bool given = std::any_of(parameters.begin(), parameters.end(),
                                  [](const PlannerParameter& p) { return p.key == "range"; });
   if (const auto range = defaultRangeForArms(problem_.model.space);
@@ -172,17 +173,15 @@ void SolveRun::setUpPlanner() {
     if (info.name == problem_.settings.planner.name) {
       report_.repeatable = info.repeatable;
       optimises_ = info.optimises;
+      restartsItself_ = info.restarts;
     }
 }
 
-/// Returns the default of `planner.restart`. The time of a search by random trees has a heavy tail.
-/// Measured on arms (mbm, two-armed robots): most searches test fewer than 8000 edges, and those
-/// that need more are found sooner by a new search. Searches for rigid bodies through narrow
-/// passages need more edges, and profit from a large tree.
+/// Returns the default of `planner.restart`. Searches for rigid bodies through narrow passages need
+/// more edges, and profit from a large tree.
 std::uint64_t SolveRun::defaultRestart() const {
   const bool isArm = hasSingleJoints(problem_.model.space);
-  const bool restartsItself = problem_.settings.planner.name == "Portfolio";
-  return isArm && report_.repeatable && !restartsItself ? 8000 : 0;
+  return isArm && report_.repeatable && !restartsItself_ ? kRestartEdges : 0;
 }
 
 void SolveRun::setUp() {
@@ -283,8 +282,9 @@ std::string SolveRun::whyNotFound(ob::PlannerStatus status) const {
                  : "no path was found in the time";
   }
   if (counters.undecided > 0)
-    text += "; " + std::to_string(counters.undecided) + " edges were undecided at a tolerance of " +
-            shortest(checker_.options().tolerance) + " m";
+    text += "; " + std::to_string(counters.undecided) +
+            (counters.undecided == 1 ? " edge was" : " edges were") +
+            " undecided at a tolerance of " + shortest(checker_.options().tolerance) + " m";
   return text + "; more time, another planner or seed may help";
 }
 

@@ -79,10 +79,11 @@ class SolveRun {
 
  private:
   bool discrete() const { return problem_.settings.checker.edges == EdgeMethod::discrete; }
+  /// Returns whether the planner's tests are those of our own classes, maybe timed.
+  bool testsAreOwn() const { return !options_.adaptChecking || options_.adaptedTestsAreProofs; }
   /// Returns whether the edge tests that the planner uses prove as much as the final certification.
   bool testsAreProofs() const {
-    return problem_.settings.checker.edges == EdgeMethod::certified &&
-           (!options_.adaptChecking || options_.adaptedTestsAreProofs);
+    return problem_.settings.checker.edges == EdgeMethod::certified && testsAreOwn();
   }
   bool maximisesClearance() const {
     return problem_.settings.objective == Objective::maxMinClearance;
@@ -125,7 +126,7 @@ class SolveRun {
   std::optional<ClearanceTargets> targets_;
   std::optional<EdgeMemory> onTarget_;
   WhyOffTarget whyOffTarget_ = WhyOffTarget::unknown;
-  bool optimises_ = false;
+  bool optimises_ = false, restartsItself_ = false;
   std::atomic<bool> endedByTime_ = false;  // set by any thread of the planner
   std::mutex progressMutex_;
   double lastProgress_ = 0;

@@ -305,9 +305,6 @@ const char* verdictName(const VerifyReport& report) {
 
 namespace {
 
-/// The bound of a trajectory's clearance is refined to this fraction of the closest distance found.
-constexpr double kRefined = 0.99;
-
 /// Tries to prove a clearance as a margin, if the bound that the report has falls short of it.
 /// Refining a bound is another method than proving a margin, and ends earlier.
 /// @param verify verifies the path or curve of the report.
@@ -384,20 +381,11 @@ VerifyReport verifyTrajectory(const Problem& problem, TrajectoryRows rows,
   // A curve outside the bounds is refuted already, and may be of any length, for instance if its
   // times have a wrong unit. So only contacts that are found quickly are reported, too.
   if (!report.violations.empty()) plain.workLimit = 10'000;
-  // A file of rows claims no clearance. The preferred one is what the trajectory should have; if it
-  // comes closer, the bound is refined until nearly the closest distance found. This reaches what
-  // `solve` reports for its trajectory, which is less than the closest distance.
+  // A file of rows claims no clearance. The preferred one is what the trajectory should have. Where
+  // it comes closer, the bound is refined nearly up to the closest distance found. So it reaches
+  // what `solve` reports.
   plain.wantedClearance = preferredClearance(problem);
   report.pathReport = verifyCurve(plain, curve.pieces);
-  const double reachable = kRefined * report.pathReport.closestFound;
-  if (report.pathReport.verdict == PathVerdict::proved && plain.wantedClearance > reachable &&
-      report.pathReport.provedClearance < reachable) {
-    plain.wantedClearance = reachable;
-    PathReport refined = verifyCurve(plain, curve.pieces);
-    refined.distanceQueries += report.pathReport.distanceQueries;
-    if (refined.provedClearance > report.pathReport.provedClearance)
-      report.pathReport = std::move(refined);
-  }
   const auto again = [&](const PathProblem& with) { return verifyCurve(with, curve.pieces); };
   const double wanted = plain.wantedClearance;
   proveClaim(std::move(plain), wanted, again, report.pathReport);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "planner/robot/tangent_step.h"
 #include "planner/trajectory/bernstein.h"
 
 namespace corridor {
@@ -18,15 +19,6 @@ Eigen::Quaterniond quaternionOf(const Eigen::Vector4d& numbers) {
 }
 
 }  // namespace
-
-Eigen::Vector3d rotationVector(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-  // R_b = exp(v)·R_a, where v is in the coordinates of the frame in which a and b are given.
-  Eigen::Quaterniond turn = quaternionOf(b) * quaternionOf(a).conjugate();
-  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
-  const double sine = turn.vec().stableNorm();
-  if (sine == 0) return Eigen::Vector3d::Zero();
-  return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
-}
 
 PathView::PathView(const std::vector<CurvePiece>& path, const ConfigurationSpace& space)
     : path_(path), space_(space) {
@@ -47,11 +39,7 @@ Configuration PathView::value(std::size_t piece, double tau) const {
   bernstein::basis(path_[piece].degree(), tau, weights.data());
   Configuration q = c * Eigen::Map<const Eigen::VectorXd>(weights.data(), c.cols());
   for (std::size_t r = 0; r < rotations_.size(); ++r) {
-    const Eigen::Vector3d v = turn(piece, r) * tau;
-    const double angle = v.norm();
-    const Eigen::Quaterniond by = angle == 0
-                                      ? Eigen::Quaterniond::Identity()
-                                      : Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
+    const Eigen::Quaterniond by = rotationOf(turn(piece, r) * tau);
     const Eigen::Vector4d from = c.col(0).segment<4>(rotations_[r]);
     q.segment<4>(rotations_[r]) = (by * quaternionOf(from)).coeffs().normalized();
   }

@@ -44,8 +44,4 @@ class PathView {
   std::vector<Eigen::Vector3d> turns_;
 };
 
-/// Returns the rotation vector from quaternion a to b (x, y, z, w; any norms) along the shorter
-/// arc, in the coordinates of the frame in which a and b are given.
-Eigen::Vector3d rotationVector(const Eigen::Vector4d& a, const Eigen::Vector4d& b);
-
 }  // namespace corridor

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/robot/tangent_step.h"
 #include "planner/trajectory/bernstein.h"
 #include "planner/trajectory/row_polynomials.h"
 

@@ -27,9 +27,9 @@ constexpr int kDepth = 60;
 constexpr int kCoarse = 5;
 /// After the proof, the bound of the clearance is refined. The refinement may take kRefinement
 /// queries, plus four times the number of queries of the proof. It ends when the bound reaches
-/// kRefined times the largest possible bound.
+/// kRefined times the largest possible bound, or kNearly times if more is wanted than is possible.
 constexpr std::uint64_t kRefinement = 4000;
-constexpr Real kRefined = 0.9L;
+constexpr Real kRefined = 0.9L, kNearly = 0.99L;
 /// The search for the first contact may take as many queries as the refinement. It ends at
 /// intervals of this half width, in t, if not before.
 constexpr Real kShortest = 0x1p-31L;
@@ -117,7 +117,7 @@ class Verifier {
   /// Returns the clearance at which refining ends, if the clearance is at most `most`.
   Real goalFor(Real most) const {
     const Real wanted = problem_.wantedClearance;
-    return wanted < most ? std::max(kRefined * most, wanted) : kRefined * most;
+    return wanted < most ? std::max(kRefined * most, wanted) : kNearly * most;
   }
 
   const PathProblem& problem_;

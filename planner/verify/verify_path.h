@@ -80,8 +80,8 @@ struct PathProblem {
   /// refuted. Empty: no limit.
   Configuration provedLower, provedUpper;
   double margin = 0;  ///< metres; a clearance of at most margin + padding is a violation
-  /// Metres. `PathReport::provedClearance` is refined until it reaches this value, if the path may
-  /// have such a clearance. It does not change the verdict.
+  /// Metres. `PathReport::provedClearance` is refined until it reaches this value, or nearly the
+  /// largest value that the path may have. It does not change the verdict.
   double wantedClearance = 0;
   Configuration tube;    ///< the proof holds for all curves in the tube (planner/model/task.h)
   double tolerance = 0;  ///< metres, > 0
@@ -157,7 +157,7 @@ struct PathReport {
   /// curve in the tube. If the path is not proved, the value is 0. If no pair is tested, it is
   /// infinite. The value is refined until one of three conditions holds:
   /// - It reaches 90 % of the difference between `closestFound` and the displacement by the
-  ///   tube; and also `PathProblem::wantedClearance`, if this is below the difference.
+  ///   tube; and also `PathProblem::wantedClearance`, or 99 % of the difference if that is smaller.
   /// - The motion bound of the worst interval is below the tolerance.
   /// - A limit of queries is reached.
   double provedClearance = 0;

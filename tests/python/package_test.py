@@ -152,7 +152,7 @@ class Problems(unittest.TestCase):
             ({"tube": {"elbow": 1}}, ValueError, "tube: the keys are joints, slides, position and rotation"),
             ({"rate": 0}, ValueError, "rate: a number from 1 to 10000 is needed, not 0"),
             ({"simplify": "yes"}, ValueError, 'simplify: one of true, false, ompl is needed, not "yes"'),
-            ({"margin": 0.1, "clearance": 0.1}, ValueError, "clearance: can't be used with a margin"),
+            ({"margin": 0.1, "clearance": 0.1}, ValueError, "clearance: can't be used if every pair has a margin"),
             ({"colour": 1}, TypeError, "a problem has no 'colour' that can be edited"),
         ):
             with self.assertRaisesRegex(error, text):

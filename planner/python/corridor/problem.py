@@ -340,8 +340,9 @@ class Solution:
             raise ValueError(f"there is no path: {self.why or self.outcome}")
 
     def verify(self) -> dict[str, Any]:
-        """Verifies the path by the independent verifier. Returns `verdict`, `findings`,
-        `proved_clearance_m`, `closest_found_m`, `left_out` (as `Solution.left_out`), `not_tested` (the number of pairs that are not tested, by reason), ..."""
+        """Verifies the path by the independent verifier. Returns `verdict`, `findings`, `proved_clearance_m`,
+        `closest_found_m`, `left_out` (as `Solution.left_out`), `not_tested` (the number of pairs that are not tested, by
+        reason), ..."""
         self._require_path()
         return _native.verify_path(self.problem._native, self.path, self.figures.get("proved_clearance_m") or 0.0)
 

@@ -220,7 +220,7 @@ TEST_F(SolveArm, MarginAndClearanceOfTheCommandLine) {
             "--margin: a number of metres, 0 or more, is needed, not \"inf\"; see corridor solve "
             "--help\n"},
            {"--margin 0.01 --clearance 0.01",
-            "--clearance: can't be used with a margin; leave one of the two out\n"},
+            "--clearance: can't be used if every pair has a margin; leave one of the two out\n"},
            {"--clearance 0.01 --no-simplify",
             "--clearance: needs Corridor's simplifier; leave out simplify: false or ompl "
             "(--no-simplify, --simplify)\n"},

@@ -387,15 +387,16 @@ TEST_F(ArmProblem, APlanarJointMaySlide) {
   write("cart.yaml", robot);
   for (const auto& text : {property("drive", "holonomic"), property("other", "diff_drive")}) {
     write("cart.srdf", text);
-    EXPECT_THAT(textsOf(read(problem).source.notes),
-                Contains("planar joints move in any direction, so the base may slide; differential "
-                         "drives are not planned for: drive"));
+    EXPECT_THAT(
+        textsOf(read(problem).source.notes),
+        Contains("these planar joints move in any direction, so the base may slide: drive; paths "
+                 "of differential drives and cars are not planned for"));
   }
   write("cart.srdf", property("drive", "diff_drive"));
   EXPECT_THAT(
       complaintOf(problem),
       testing::HasSubstr("cart.srdf:2: <joint_property>: the motion_model is \"diff_drive\"; "
-                         "paths of differential drives are not planned for: joint "
+                         "paths of differential drives and cars are not planned for: joint "
                          "\"drive\" would move in any direction"));
   write("cart.yaml", "format: corridor-robot-1\nurdf: cart.urdf\ndrive: differential\n");
   EXPECT_THAT(complaintOf(problem), testing::HasSubstr("cart.yaml:3: \"drive\" is not supported "

@@ -68,7 +68,7 @@ TEST_F(ProblemFaults, Prefer) {
             "level?) (known: clearance, detour, clearance_of)");
   const std::string place = "problem.yaml:9: prefer.clearance: ";
   EXPECT_EQ(with("margin: 0.01\nprefer: {clearance: 0.1}\n"),
-            place + "can't be used with a margin; leave one of the two out");
+            place + "can't be used if every pair has a margin; leave one of the two out");
   for (const char* other : {"simplify: false\n", "simplify: ompl\n"})
     EXPECT_EQ(with(std::string(other) + "prefer: {clearance: 0.1}\n"),
               place +

@@ -88,21 +88,35 @@ TEST(SlidingConnect, PathsAreProvedAndRepeat) {
   }
 }
 
-/// Without a checker that measures distances, nothing slides, but paths are found.
-TEST(SlidingConnect, WorksWithOtherCheckers) {
-  Problem problem = slotProblem(1);
-  problem.settings.checker.edges = EdgeMethod::discrete;
-  EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved);
+/// Checkers around Corridor's, such as those that `benchmark` measures times with, change nothing.
+/// With other checkers, such as FCL, nothing slides.
+TEST(SlidingConnect, SlidesIfTheTestsAreTheCheckers) {
+  Problem problem = slotProblem(0.1);
   SolveOptions options;
   options.adaptChecking = [](const ob::SpaceInformationPtr& si, const Checker& checker) {
     si->setStateValidityChecker([si, &checker](const ob::State* state) {
       return checker.isProvedFree(configurationOf(*si, state));
     });
   };
-  EXPECT_EQ(solveProblem(problem, options).outcome, SolveOutcome::solved);
+  options.adaptedTestsAreProofs = true;
+  const SolveReport own = solveProblem(problem), around = solveProblem(problem, options);
+  ASSERT_EQ(own.outcome, SolveOutcome::solved) << own.why;
+  EXPECT_EQ(around.path, own.path);
+  options.adaptedTestsAreProofs = false;
+  const SolveReport other = solveProblem(problem, options);
+  problem.settings.planner.params = {{"slides", "0"}, {"turn_weight", "0"}};
+  EXPECT_EQ(other.path, solveProblem(problem).path);
+  EXPECT_NE(other.path, own.path);
   EXPECT_THROW(
-      SlidingConnect(std::make_shared<ob::SpaceInformation>(std::make_shared<ob::SE2StateSpace>())),
+      SlidingConnect(std::make_shared<ob::SpaceInformation>(std::make_shared<ob::SE2StateSpace>()),
+                     nullptr),
       std::invalid_argument);
+}
+
+TEST(SlidingConnect, WorksWithSampledEdges) {
+  Problem problem = slotProblem(1);
+  problem.settings.checker.edges = EdgeMethod::discrete;
+  EXPECT_EQ(solveProblem(problem).outcome, SolveOutcome::solved);
 }
 
 TEST(SlidingConnect, ItsTreesAreEdgesThatAreFree) {
@@ -118,7 +132,7 @@ TEST(SlidingConnect, ItsTreesAreEdgesThatAreFree) {
   space->write(problem.task.goals[0], goal.get());
   const auto definition = std::make_shared<ob::ProblemDefinition>(si);
   definition->setStartAndGoalStates(start, goal);
-  SlidingConnect planner(si);
+  SlidingConnect planner(si, &checker);
   planner.setProblemDefinition(definition);
   planner.setup();
   int rounds = 0;
@@ -154,7 +168,8 @@ TEST(ContactStep, GradientsOfDistances) {
                                                                apart = ball - Eigen::Vector2d(2, 1);
     const auto near = checker.pairsWithin(q, PairMargins({10.0}));
     ASSERT_EQ(near.size(), 1U);
-    const std::vector<DistanceConstraint> all = constraintsOf(checker, near, q);
+    const std::vector<DistanceConstraint> all =
+        constraintsOf(checker, near, q, tangentWeights(checker.space()));
     ASSERT_EQ(all.size(), 1U);
     const Eigen::Vector2d away = apart.normalized();
     const Eigen::Vector3d gradient(away.x(), away.y(),

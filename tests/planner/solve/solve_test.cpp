@@ -179,11 +179,12 @@ TEST(Solve, EveryPlannerIsMadeAndHasParametersThatCanBeSet) {
   const test::Hall hall(Rigid::SE3);
   ASSERT_GE(knownPlanners().size(), 30u);
   for (const PlannerInfo& info : knownPlanners()) {
-    const auto planner = makePlanner(hall.si, info.name, {});
+    const auto planner = makePlanner(hall.si, &hall.checker, info.name, {});
     ASSERT_TRUE(planner) << info.name;
   }
-  EXPECT_NO_THROW(makePlanner(
-      hall.si, "RRT", {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
+  EXPECT_NO_THROW(
+      makePlanner(hall.si, nullptr, "RRT",
+                  {{"range", "0.5"}, {"goal_bias", "0.1"}, {"intermediate_states", "true"}}));
 }
 
 /// Solves the problem. For those planners of OMPL 1.5.2 that leak memory, the leak sanitizer is
